@@ -1,0 +1,292 @@
+//! The declarations of counters: every number that a run reports, with its measure, meaning and conservation law.
+//!
+//! Declared once, here; a block adds to them by name and cannot invent one. Values are `u64`. Names that end in
+//! `.peak` aggregate by maximum, all others by sum.
+
+use std::fmt;
+
+/// What a counter measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Bytes.
+    Bytes,
+    /// Clock cycles.
+    Cycles,
+    /// Things counted.
+    Count,
+    /// Entries of an on-chip store.
+    Entries,
+    /// Bits.
+    Bits,
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Bytes => "bytes",
+            Self::Cycles => "cycles",
+            Self::Count => "count",
+            Self::Entries => "entries",
+            Self::Bits => "bits",
+        })
+    }
+}
+
+/// Where a counter belongs, in the order of the data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Block {
+    /// The command stream itself.
+    Trace,
+    /// The link from the host.
+    Link,
+    /// Device memory.
+    Memory,
+    /// The control-point shader.
+    Transform,
+    /// The input port.
+    Port,
+    /// Primitives to patches.
+    Assemble,
+    /// Trivial clipping.
+    Clip,
+    /// Back-face removal.
+    Backface,
+    /// Tessellation levels.
+    Level,
+    /// Parameter lists.
+    Place,
+    /// Points of the surface.
+    Evaluate,
+    /// Triangles.
+    Stitch,
+    /// Perspective divide and output.
+    Emit,
+    /// The vertex shader.
+    VertexShader,
+}
+
+impl Block {
+    /// The name in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Trace => "trace",
+            Self::Link => "link",
+            Self::Memory => "memory",
+            Self::Transform => "transform",
+            Self::Port => "port",
+            Self::Assemble => "assemble",
+            Self::Clip => "clip",
+            Self::Backface => "backface",
+            Self::Level => "level",
+            Self::Place => "place",
+            Self::Evaluate => "evaluate",
+            Self::Stitch => "stitch",
+            Self::Emit => "emit",
+            Self::VertexShader => "vertex_shader",
+        }
+    }
+}
+
+/// The declaration of a counter.
+#[derive(Clone, Copy, Debug)]
+pub struct Declaration {
+    /// The counter.
+    pub counter: Counter,
+    /// The block that it belongs to.
+    pub block: Block,
+    /// Its name within the block.
+    pub name: &'static str,
+    /// Its measure.
+    pub measure: Measure,
+    /// What exactly is counted.
+    pub meaning: &'static str,
+    /// The conservation law that it takes part in; empty where it has none.
+    pub law: &'static str,
+}
+
+macro_rules! counters {
+    ($($(#[$block_doc:meta])* $block:ident { $($counter:ident $name:literal $measure:ident $meaning:literal, $law:literal;)* })*) => {
+        /// Every counter. The order is the order of reports.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[repr(usize)]
+        pub enum Counter { $($(#[doc = $meaning] $counter,)*)* }
+
+        /// All declarations, in the order of [`Counter`].
+        pub const DECLARATIONS: &[Declaration] = &[$($(Declaration {
+            counter: Counter::$counter,
+            block: Block::$block,
+            name: $name,
+            measure: Measure::$measure,
+            meaning: $meaning,
+            law: $law,
+        },)*)*];
+    };
+}
+
+counters! {
+    Trace {
+        TraceFrames "frames" Count "frame commands", "";
+        TraceDraws "draws" Count "draw commands, instances not multiplied", "";
+        TracePatches "patches" Count "patches drawn, over all instances", "= assemble patches";
+    }
+    Link {
+        LinkCommands "bytes.commands" Bytes "command headers, 8 bytes a command other than the trace's header and end", "";
+        LinkMatrices "bytes.matrices" Bytes "matrices, 64 bytes each: view and projection of a frame, model or instances of a draw", "";
+        LinkControlPoints "bytes.control_points" Bytes "control points, 12 bytes (xyz) or 16 (xyzw), where their command stands", "";
+        LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`)", "";
+        LinkIndices "bytes.indices" Bytes "triangle indices (unit `triangles`), 2 bytes, or 4 where a draw has more than 65536 vertices", "";
+        LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload", "";
+        LinkTotal "bytes.total" Bytes "all bytes that crossed the link", "= sum of the other link bytes";
+    }
+    Memory {
+        MemoryReadControlPoints "bytes.read.control_points" Bytes "resident control points, read by each instance of each draw that uses them", "";
+        MemoryWrittenControlPoints "bytes.written.control_points" Bytes "resident control points, written once where their command stands", "<= link bytes.control_points";
+        MemoryBursts "bursts" Count "memory bursts, read and written; each instance of a draw and each upload starts a burst of its own", "bursts x burst = bytes read + written + wasted";
+        MemoryWasted "bytes.wasted" Bytes "bytes of bursts that nothing asked for", "";
+    }
+    Transform {
+        TransformInvocations "invocations" Count "control points transformed", "= assemble control_points.received = port points";
+        TransformBytesIn "bytes.in" Bytes "what the control-point shader reads: a point, 12 or 16 bytes", "";
+        TransformBytesOut "bytes.out" Bytes "what it writes: a vec4, 16 bytes", "= 16 x invocations";
+    }
+    Port {
+        PortPoints "points" Count "control points quantised", "= transform invocations";
+        PortSaturated "saturated" Count "control points of which a coordinate did not fit the position format", "<= port points";
+        PortOverflows "overflows" Count "coordinates that did not fit the position format", "saturated <= overflows <= 4 x saturated";
+    }
+    Assemble {
+        AssembleReceived "control_points.received" Count "control points that entered, once for each instance", "= port points";
+        AssembleReused "control_points.reused" Count "control points of patches taken from on-chip state instead of the stream", "received + reused = 16 x patches";
+        AssemblePatches "patches" Count "patches assembled", "= trace patches = clip patches.in";
+        AssembleEdgePeak "edge_entries.peak" Entries "most control points of shared edges held at once: a mesh's last row and the last patch's column", "";
+    }
+    Clip {
+        ClipIn "patches.in" Count "patches tested", "= assemble patches";
+        ClipCulled "patches.culled" Count "patches wholly outside one clip plane", "in - culled = backface patches.in";
+    }
+    Backface {
+        BackfaceIn "patches.in" Count "patches that reached back-face removal, tested or not", "= clip patches.in - patches.culled";
+        BackfaceTested "patches.tested" Count "patches tested: the draw culls, the method is not off and no point was saturated", "culled <= tested <= in";
+        BackfaceCulled "patches.culled" Count "patches removed as back-facing", "in - culled = level patches";
+    }
+    Level {
+        LevelPatches "patches" Count "patches given levels", "= backface patches.in - patches.culled";
+        LevelClamped "levels.clamped" Count "levels, of four edges and two interior directions, of which the criterion asked more than max_level", "<= 6 x patches";
+        LevelNear "edges.near" Count "edges given max_level because one of their points is nearer than the near threshold", "<= 4 x patches";
+        LevelOverflows "overflows" Count "projected control points that did not fit the projection's format", "";
+    }
+    Place {
+        PlaceReciprocals "reciprocals" Count "reciprocals formed: one for each distinct level of a patch above 1", "<= 6 x patches";
+        PlaceParameters "parameters" Count "parameters placed: the segments of the four edges, and the inner entries of the two interior lists", "";
+    }
+    Evaluate {
+        EvaluateInvocations "invocations" Count "points evaluated: boundary and interior vertices, and the control points of interior rows", "";
+        EvaluateVertices "vertices" Count "distinct parameters within the patch", "= emit vertices";
+        EvaluateCurves "curves" Count "curves set up for forward differencing, a half-run each; 0 under de Casteljau", "";
+        EvaluateSteps "steps" Count "forward-difference steps of a vec4, or de Casteljau curve points", "";
+        EvaluateNormals "normals" Count "tangent planes evaluated", "= vertices or 0";
+        EvaluateNormalsDegenerate "normals.degenerate" Count "vertices where the tangent plane vanishes", "<= normals";
+        EvaluateOverflows "overflows" Count "coordinates of evaluated points that did not fit the position format", "";
+    }
+    Stitch {
+        StitchTriangles "triangles" Count "triangles made", "= 2 x vertices - boundary vertices - 2, summed over patches; = emit triangles";
+        StitchDegenerate "triangles.degenerate" Count "triangles with two equal clip positions; they stay in the mesh", "<= triangles";
+    }
+    Emit {
+        EmitVertices "vertices" Count "vertices that left the unit", "= evaluate vertices";
+        EmitTriangles "triangles" Count "triangles that left the unit", "= stitch triangles";
+        EmitBytes "bytes" Bytes "vertex records and triangle indices that left the unit", "= vertices x vertex_bytes + 3 x triangles x index_bytes";
+        EmitToClipper "vertices.to_clipper" Count "vertices left homogeneous: w <= 0, or outside the sub-pixel format's band", "<= vertices";
+    }
+    VertexShader {
+        VertexShaderInvocations "invocations" Count "vertices shaded; every distinct vertex of a patch once", "= emit vertices";
+        VertexShaderBytesIn "bytes.in" Bytes "what the vertex shader reads", "";
+        VertexShaderBytesOut "bytes.out" Bytes "what it writes", "";
+    }
+}
+
+/// How many counters there are.
+pub const COUNT: usize = DECLARATIONS.len();
+
+impl Counter {
+    /// Its declaration.
+    #[must_use]
+    pub fn declaration(self) -> &'static Declaration {
+        &DECLARATIONS[self as usize]
+    }
+
+    /// Whether it aggregates by maximum.
+    #[must_use]
+    pub fn is_peak(self) -> bool {
+        self.declaration().name.ends_with(".peak")
+    }
+}
+
+/// The values of all counters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Counters([u64; COUNT]);
+
+impl Default for Counters {
+    fn default() -> Self {
+        Self([0; COUNT])
+    }
+}
+
+impl Counters {
+    /// Adds `n`; for a peak, keeps the larger.
+    ///
+    /// # Panics
+    /// When a sum exceeds 64 bits.
+    #[inline]
+    pub fn add(&mut self, counter: Counter, n: u64) {
+        let value = &mut self.0[counter as usize];
+        *value = if counter.is_peak() {
+            (*value).max(n)
+        } else {
+            value.checked_add(n).expect("a counter stays within 64 bits")
+        };
+    }
+
+    /// The value.
+    #[must_use]
+    pub fn get(&self, counter: Counter) -> u64 {
+        self.0[counter as usize]
+    }
+
+    /// Takes in the counters of another part of the same run.
+    pub fn merge(&mut self, other: &Self) {
+        for declaration in DECLARATIONS {
+            self.add(declaration.counter, other.get(declaration.counter));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declarations_stand_in_the_order_of_the_enum_and_have_distinct_names() {
+        for (i, d) in DECLARATIONS.iter().enumerate() {
+            assert_eq!(d.counter as usize, i);
+            assert!(!d.meaning.is_empty());
+        }
+        let mut names: Vec<_> = DECLARATIONS.iter().map(|d| (d.block, d.name)).collect();
+        assert!(names.is_sorted_by_key(|n| n.0), "blocks stand in the order of the data");
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), COUNT);
+    }
+
+    #[test]
+    fn peaks_aggregate_by_maximum_and_the_rest_by_sum() {
+        let mut a = Counters::default();
+        a.add(Counter::AssembleEdgePeak, 7);
+        a.add(Counter::StitchTriangles, 7);
+        let mut b = a.clone();
+        b.merge(&a);
+        assert_eq!(b.get(Counter::AssembleEdgePeak), 7);
+        assert_eq!(b.get(Counter::StitchTriangles), 14);
+    }
+}

@@ -1,0 +1,34 @@
+//! The hardware, and nothing else: integers in, integers out. No floating point, no files, no threads, no `unsafe`.
+//!
+//! ```text
+//!  control points          patches                       levels, parameters      points and triangles
+//!   f32 bits ─► port ─► assemble ─► clip ─► backface ─► level ─► place ─► evaluate ─► stitch ─► emit
+//!              Q formats  reuse      AND of   exact sign   edges    half-    forward     Bresenham  divide,
+//!                                    outcodes of 81 coeff. alone    lists    differences  walk      snap
+//! ```
+//!
+//! A file imports only [`number`], [`counter`], [`patch`] and the blocks that stand above it in the list below, which
+//! is the order of the data.
+
+pub mod number;
+
+pub mod counter;
+pub mod patch;
+
+pub mod port;
+
+pub mod assemble;
+
+pub mod clip;
+
+pub mod backface;
+
+pub mod level;
+
+pub mod place;
+
+pub mod evaluate;
+
+pub mod stitch;
+
+pub mod emit;

@@ -1,0 +1,142 @@
+//! The commands of a trace, checked and ready to be carried out: what the readers make and the units consume.
+//!
+//! Matrices are column-major, points column vectors, clip = projection * view * model * p. Sizes and ids are
+//! checked by the reader: a unit may rely on every invariant stated here.
+
+use rtl_model::level::Criterion;
+use rtl_model::patch::Depth;
+use std::sync::Arc;
+
+use super::points::PointSource;
+
+/// One command.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// The first command of every trace.
+    Header(Header),
+    /// Begins a frame.
+    Frame(Frame),
+    /// Defines or replaces the points of an id.
+    Points(Points),
+    /// Sets the tessellation state of the draws that follow.
+    Tessellation(Tessellation),
+    /// Draws surfaces.
+    Draw(Draw),
+    /// The last command.
+    End,
+}
+
+/// What the trace says of itself.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Header {
+    /// Title, possibly empty.
+    pub title: String,
+    /// Where the data come from, possibly empty.
+    pub source: String,
+    /// The licence of the data, possibly empty.
+    pub licence: String,
+}
+
+/// The camera of a frame. View and projection are finite and invertible.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Width and height in pixels, each 1..=16384.
+    pub viewport: [u32; 2],
+    /// World to eye, column-major.
+    pub view: [f32; 16],
+    /// Eye to clip, column-major.
+    pub projection: [f32; 16],
+    /// The depth range of clip space.
+    pub depth: Depth,
+    /// Powers of two that the port scales by, where the trace gives them.
+    pub range: Range,
+}
+
+/// The largest magnitude a coordinate is expected to have: powers of two, or `None` where it is to be derived.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Range {
+    /// In clip space: log2.
+    pub clip: Option<i32>,
+    /// In object space: log2.
+    pub object: Option<i32>,
+}
+
+/// Points under an id.
+#[derive(Clone, Debug)]
+pub struct Points {
+    /// The id that draws name.
+    pub id: u32,
+    /// The points. Cheap to clone.
+    pub source: Arc<PointSource>,
+    /// Crosses the link once; every draw reads it from device memory.
+    pub resident: bool,
+}
+
+/// Tessellation state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tessellation {
+    /// How levels are chosen, its numbers already quantised as the level block takes them.
+    pub criterion: Criterion,
+    /// Least level, UQ8.16.
+    pub min_level: u32,
+    /// Greatest level, UQ8.16.
+    pub max_level: u32,
+}
+
+/// A draw of surfaces that share their state.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    /// What the points mean.
+    pub primitive: Primitive,
+    /// The id of the points.
+    pub points: u32,
+    /// Index of the first point used.
+    pub first: u64,
+    /// Object to world, one for each instance; one identity when the trace gives none.
+    pub models: Vec<[f32; 16]>,
+    /// Whether `model` or `instances` was given, and so crosses the link.
+    pub models_sent: bool,
+    /// `"front":"reversed"`.
+    pub reversed: bool,
+    /// Back-facing patches may be removed (default true).
+    pub cull: bool,
+}
+
+/// How the points of a draw form patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Primitive {
+    /// `count` patches of 16 points each.
+    Patches {
+        /// Patches.
+        count: u64,
+    },
+    /// `rows` by `columns` patches over `(3 rows + 1)` by `(3 columns + 1)` points, row-major.
+    Mesh {
+        /// Patches along v.
+        rows: u32,
+        /// Patches along u.
+        columns: u32,
+    },
+}
+
+impl Primitive {
+    /// Patches in one instance.
+    #[must_use]
+    pub fn patches(self) -> u64 {
+        match self {
+            Self::Patches { count } => count,
+            Self::Mesh { rows, columns } => u64::from(rows) * u64::from(columns),
+        }
+    }
+
+    /// Points that one instance uses.
+    #[must_use]
+    pub fn points(self) -> u64 {
+        match self {
+            Self::Patches { count } => 16 * count,
+            Self::Mesh { rows, columns } => {
+                (3 * u64::from(rows) + 1) * (3 * u64::from(columns) + 1)
+            }
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! The command stream: types, the text form, importers, scenes.
+
+pub mod command;
+pub mod points;

@@ -1,0 +1,3 @@
+//! To come: where points live.
+#[derive(Debug)]
+pub enum PointSource {}
