@@ -1,0 +1,293 @@
+//! The configuration: everything that changes what a run computes. Formats and policies as plain data. A leaf.
+//!
+//! Threads are no part of it: any number of them gives the same bytes.
+
+use crate::error::{Error, Result};
+use rtl_model::number::{Overflow, Rounding};
+use serde::{Deserialize, Serialize};
+
+pub use rtl_model::backface::Method as BackfaceMethod;
+pub use rtl_model::evaluate::{Normals, Scheme};
+
+/// Widest position format.
+pub const WIDTH_MAX: u32 = 48;
+
+/// Which unit runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// Sfarti's place and culling, Moreton's fractional levels, forward differencing and stitcher.
+    #[default]
+    Hybrid,
+    /// The host tessellates: the same triangles, but vertices and indices cross the link.
+    Triangles,
+}
+
+/// Which engine lays time over the blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// Function only: no cycles.
+    #[default]
+    None,
+}
+
+/// The effective configuration of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Config {
+    /// The unit.
+    pub unit: Unit,
+    /// The engine.
+    pub engine: Engine,
+    /// Positions behind the port.
+    pub position: Position,
+    /// Levels.
+    pub level: Level,
+    /// Trivial clipping.
+    pub clip: Clip,
+    /// Back-face removal.
+    pub backface: Backface,
+    /// Points of the surface.
+    pub evaluate: Evaluate,
+    /// Divide and output.
+    pub emit: Emit,
+    /// The vertex shader.
+    pub vertex_shader: VertexShader,
+    /// The link from the host.
+    pub link: Link,
+    /// Device memory.
+    pub memory: Memory,
+    /// Unit `triangles`.
+    pub triangles: Triangles,
+}
+
+/// The position format and the port that makes it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Position {
+    /// Bits of a coordinate with its sign, 8..=48.
+    pub width: u32,
+    /// How the port rounds.
+    pub rounding: Rounding,
+    /// What the port, evaluate and emit do with values that do not fit.
+    pub overflow: Overflow,
+    /// log2 of the largest magnitude in clip space; the trace's `range`, else the far plane's w, when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clip_range_log2: Option<i32>,
+}
+
+/// Levels. Absent: as the trace says.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Level {
+    /// Overrides the trace's criterion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub criterion: Option<Criterion>,
+    /// Pixels of `flatness` and `edge_length`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<f64>,
+    /// Level of `fixed`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<f64>,
+    /// Overrides the trace's least level.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_level: Option<f64>,
+    /// Overrides the trace's greatest level.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_level: Option<f64>,
+    /// Points with a smaller w give their edges the greatest level; the near plane's w when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub near: Option<f64>,
+}
+
+/// The criterion's name; its number stands beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Criterion {
+    /// Distance between the surface and its triangles.
+    Flatness,
+    /// Length of the projected control polygon.
+    EdgeLength,
+    /// The same level everywhere.
+    Fixed,
+}
+
+/// Trivial clipping.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Clip {
+    /// Whether patches wholly outside one plane are removed.
+    pub enabled: bool,
+}
+
+/// Back-face removal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Backface {
+    /// The test.
+    pub method: BackfaceMethod,
+}
+
+/// Points of the surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Evaluate {
+    /// How boundary and interior points are computed.
+    pub scheme: Scheme,
+    /// Guard bits of the forward-difference accumulators; min(20, 60 - width) when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub guard: Option<u32>,
+    /// How an output is rounded to the position format.
+    pub rounding: Rounding,
+    /// What the vertex shader gets to light with.
+    pub normals: Normals,
+}
+
+/// Divide and output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Emit {
+    /// Whether vertices are divided by w and snapped to the sub-pixel grid.
+    pub divide: bool,
+    /// Fraction bits of a screen coordinate (Q16.8: 8), 0..=12.
+    pub subpixel_bits: u32,
+    /// How a screen coordinate is rounded.
+    pub rounding: Rounding,
+    /// Bytes of a vertex record that leaves the unit.
+    pub vertex_bytes: u32,
+    /// Bytes of a triangle index that leaves the unit.
+    pub index_bytes: u32,
+}
+
+/// The vertex shader, lighting only: positions are already in clip space.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VertexShader {
+    /// Bytes read a vertex, without normals: position 16, parameters 8.
+    pub bytes_in: u32,
+    /// Bytes of a tangent plane, read when normals are on.
+    pub bytes_in_normal: u32,
+    /// Bytes written a vertex: position 16, colour 16.
+    pub bytes_out: u32,
+}
+
+/// The link from the host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Link {
+    /// Largest payload of a packet in bytes; 0: the link is not packetised.
+    pub payload: u32,
+    /// Framing of a packet in bytes.
+    pub header: u32,
+}
+
+/// Device memory.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Memory {
+    /// Bytes of a burst.
+    pub burst: u32,
+}
+
+/// Unit `triangles`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Triangles {
+    /// Bytes of a vertex on the link: position 12, normal 12, texture coordinates 8.
+    pub vertex_bytes: u32,
+}
+
+impl Default for Position {
+    fn default() -> Self {
+        Self {
+            width: 32,
+            rounding: Rounding::NearestEven,
+            overflow: Overflow::Saturate,
+            clip_range_log2: None,
+        }
+    }
+}
+
+impl Default for Clip {
+    fn default() -> Self {
+        Self { enabled: true }
+    }
+}
+
+impl Default for Backface {
+    fn default() -> Self {
+        Self { method: BackfaceMethod::TangentPlane }
+    }
+}
+
+impl Default for Evaluate {
+    fn default() -> Self {
+        Self {
+            scheme: Scheme::Forward,
+            guard: None,
+            rounding: Rounding::NearestEven,
+            normals: Normals::Off,
+        }
+    }
+}
+
+impl Default for Emit {
+    fn default() -> Self {
+        Self {
+            divide: true,
+            subpixel_bits: 8,
+            rounding: Rounding::NearestEven,
+            vertex_bytes: 16,
+            index_bytes: 2,
+        }
+    }
+}
+
+impl Default for VertexShader {
+    fn default() -> Self {
+        Self { bytes_in: 24, bytes_in_normal: 16, bytes_out: 32 }
+    }
+}
+
+impl Default for Link {
+    fn default() -> Self {
+        Self { payload: 256, header: 24 }
+    }
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self { burst: 32 }
+    }
+}
+
+impl Default for Triangles {
+    fn default() -> Self {
+        Self { vertex_bytes: 32 }
+    }
+}
+
+impl Config {
+    /// Guard bits: as configured, else min(20, 60 - width).
+    #[must_use]
+    pub fn guard(&self) -> u32 {
+        self.evaluate.guard.unwrap_or_else(|| 20.min(60 - self.position.width))
+    }
+
+    /// Refuses what the hardware could not be built with.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] names the key, what was found and what was expected.
+    pub fn check(&self) -> Result<()> {
+        let width = self.position.width;
+        if !(8..=WIDTH_MAX).contains(&width) {
+            return Err(bad("position.width", width, "8..=48"));
+        }
+        Ok(())
+    }
+}
+
+fn bad(key: &str, found: impl std::fmt::Display, expected: &str) -> Error {
+    Error::Usage(format!("{key}: found {found}, expected {expected}"))
+}

@@ -1,0 +1,65 @@
+//! Where triangles go: the interface between the units and whoever consumes their meshes. A leaf.
+
+use crate::error::Result;
+use rtl_model::emit::Screen;
+use rtl_model::patch::{Triangle, Vertex, View};
+
+/// A frame whose meshes follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameInfo {
+    /// Number from 0.
+    pub number: u64,
+    /// Format, viewport, depth range.
+    pub view: View,
+    /// Takes a position of the mesh, homogeneous and in real units, to world space: column-major.
+    pub to_world: [f64; 16],
+}
+
+/// What a unit made of one patch.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchMesh<'a> {
+    /// Number of the patch within its frame, before culling, in draw order.
+    pub patch: u32,
+    /// Vertices: boundary counter-clockwise from (0, 0), then the interior row by row.
+    pub vertices: &'a [Vertex],
+    /// Their screen positions, one each; empty when `emit.divide` is off.
+    pub screen: &'a [Screen],
+    /// Triangles over `vertices`.
+    pub triangles: &'a [Triangle],
+}
+
+/// A consumer of meshes. Patches arrive in draw order, whatever the number of threads.
+pub trait Sink {
+    /// Whether the meshes of this frame are wanted; those of other frames are not kept.
+    fn wants(&self, frame: u64) -> bool;
+
+    /// A wanted frame begins.
+    ///
+    /// # Errors
+    /// The sink's own.
+    fn frame(&mut self, frame: &FrameInfo) -> Result<()>;
+
+    /// A patch of the frame that began last. Culled patches do not appear.
+    ///
+    /// # Errors
+    /// The sink's own.
+    fn patch(&mut self, mesh: &PatchMesh<'_>) -> Result<()>;
+}
+
+/// Takes no meshes: counters only.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoMesh;
+
+impl Sink for NoMesh {
+    fn wants(&self, _frame: u64) -> bool {
+        false
+    }
+
+    fn frame(&mut self, _frame: &FrameInfo) -> Result<()> {
+        Ok(())
+    }
+
+    fn patch(&mut self, _mesh: &PatchMesh<'_>) -> Result<()> {
+        Ok(())
+    }
+}
