@@ -80,6 +80,7 @@ impl Config {
         let message = match (level.criterion, level.pixels, level.level) {
             (None, Some(_), Some(_)) => "found both pixels and level, expected one of them",
             (Some(Criterion::Fixed), Some(_), _) => "found fixed with pixels, expected level only",
+            (Some(Criterion::Fixed), None, Some(_)) => return Ok(()),
             (Some(Criterion::Fixed), _, None) => {
                 "found fixed alone, expected level.level beside it"
             }
