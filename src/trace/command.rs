@@ -83,6 +83,17 @@ pub struct Tessellation {
     pub max_level: u32,
 }
 
+impl Default for Tessellation {
+    /// What holds before the first tessellation command: flatness within half a pixel, levels from 1 to 64.
+    fn default() -> Self {
+        let criterion = Criterion::Flatness { pixels: 1 << 15 };
+        Self { criterion, min_level: 1 << 16, max_level: 64 << 16 }
+    }
+}
+
+/// The matrix that changes nothing.
+pub const IDENTITY: [f32; 16] = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
+
 /// A draw of surfaces that share their state.
 #[derive(Clone, Debug)]
 pub struct Draw {
