@@ -61,6 +61,19 @@ pub fn is_summary(path: &Path) -> bool {
         .is_some_and(|summary| summary.get("tessim").is_some_and(Value::is_string))
 }
 
+/// What would cross the link if the host tessellated into the same triangles: every vertex with its
+/// attributes, indices of 2 bytes (patches are drawn one by one, none has more than 65536 vertices),
+/// and the commands and matrices, which stay. Framing is left out.
+#[must_use]
+pub fn host_bytes(report: &Report) -> u64 {
+    let totals = report.totals();
+    let vertices =
+        totals.get(Counter::EmitVertices) * u64::from(report.config.triangles.vertex_bytes);
+    let indices = 3 * 2 * totals.get(Counter::EmitTriangles);
+    let state = totals.get(Counter::LinkCommands) + totals.get(Counter::LinkMatrices);
+    vertices + indices + state
+}
+
 fn totals_by_name(report: &Report, totals: &Counters) -> Value {
     let named = report.declarations().map(|declared| {
         let name = format!("{}.{}", declared.block.name(), declared.name);
