@@ -1,8 +1,16 @@
-//! The configuration: everything that changes what a run computes. Formats and policies as plain data. A leaf.
+//! The configuration: everything that changes what a run computes. Formats and policies as plain
+//! data. A leaf.
 //!
+//! In come a preset, a TOML file and single settings ([`layers`]); out comes a checked [`Config`],
+//! which prints itself as commented TOML that reads back as the same configuration ([`print`]).
 //! Threads are no part of it: any number of them gives the same bytes.
 
-use crate::error::{Error, Result};
+pub mod check;
+pub mod keys;
+pub mod layers;
+pub mod preset;
+pub mod print;
+
 use rtl_model::number::{Overflow, Rounding};
 use serde::{Deserialize, Serialize};
 
@@ -72,7 +80,8 @@ pub struct Position {
     pub rounding: Rounding,
     /// What the port, evaluate and emit do with values that do not fit.
     pub overflow: Overflow,
-    /// log2 of the largest magnitude in clip space; the trace's `range`, else the far plane's w, when absent.
+    /// log2 of the largest magnitude in clip space; the trace's `range`, else the far plane's w,
+    /// when absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clip_range_log2: Option<i32>,
 }
@@ -269,25 +278,34 @@ impl Default for Triangles {
 }
 
 impl Config {
-    /// Guard bits: as configured, else min(20, 60 - width).
+    /// Guard bits: as configured, else min(20, 60 - width), so that width + guard + 3 stays
+    /// within 63 bits.
     #[must_use]
     pub fn guard(&self) -> u32 {
-        self.evaluate.guard.unwrap_or_else(|| 20.min(60 - self.position.width))
+        let room = 60u32.saturating_sub(self.position.width);
+        self.evaluate.guard.unwrap_or(20.min(room))
     }
 
-    /// Refuses what the hardware could not be built with.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] names the key, what was found and what was expected.
-    pub fn check(&self) -> Result<()> {
-        let width = self.position.width;
-        if !(8..=WIDTH_MAX).contains(&width) {
-            return Err(bad("position.width", width, "8..=48"));
-        }
-        Ok(())
+    /// The same configuration with what it leaves to be derived from itself written out:
+    /// `evaluate.guard`, and `level.criterion` where only its number was given.
+    #[must_use]
+    pub fn effective(&self) -> Self {
+        let mut effective = self.clone();
+        effective.evaluate.guard = Some(self.guard());
+        effective.level.criterion = self.level.chosen();
+        effective
     }
 }
 
-fn bad(key: &str, found: impl std::fmt::Display, expected: &str) -> Error {
-    Error::Usage(format!("{key}: found {found}, expected {expected}"))
+impl Level {
+    /// The criterion that overrides the trace's, if any. A number alone says which: `level` means
+    /// `fixed`, `pixels` means `flatness`, which is the trace format's own default.
+    #[must_use]
+    pub fn chosen(&self) -> Option<Criterion> {
+        self.criterion.or(match (self.pixels, self.level) {
+            (_, Some(_)) => Some(Criterion::Fixed),
+            (Some(_), None) => Some(Criterion::Flatness),
+            (None, None) => None,
+        })
+    }
 }

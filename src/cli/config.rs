@@ -1,0 +1,70 @@
+//! The flags that make a configuration, and `config`, which prints it.
+
+use super::print;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::path::{Path, PathBuf};
+use tessim::config::Config;
+use tessim::config::layers::Layers;
+use tessim::config::preset::Preset;
+use tessim::error::{Error, Place, Result};
+
+/// Flags that make a configuration; each layer lies over the one before.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Layered {
+    /// The unit that runs; over all layers [default: hybrid]
+    #[arg(long, value_name = "U", value_parser = ["hybrid", "triangles"])]
+    unit: Option<String>,
+    /// The machine whose numbers are assumed [default: modern]
+    #[arg(long, value_name = "P", value_parser = presets(), hide_default_value = true)]
+    preset: Option<Preset>,
+    /// A TOML file over the preset
+    #[arg(long, value_name = "F.toml")]
+    config: Option<PathBuf>,
+    /// One setting over the file, such as position.width=24; may be repeated
+    #[arg(long = "set", value_name = "key=value")]
+    settings: Vec<String>,
+}
+
+fn presets() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name))
+        .map(|name| Preset::named(&name).expect("only names of presets are possible values"))
+}
+
+impl Layered {
+    /// The effective configuration.
+    pub(crate) fn configuration(&self) -> Result<Config> {
+        let mut layers = Layers::new(self.preset.unwrap_or_default());
+        if let Some(path) = &self.config {
+            layers.file(&path.display().to_string(), &text(path)?)?;
+        }
+        layers.set(&self.settings)?;
+        if let Some(unit) = &self.unit {
+            layers.set(&[format!("unit={unit}")])?;
+        }
+        layers.finish()
+    }
+}
+
+fn text(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| Error::system(path, error))?;
+    String::from_utf8(bytes).map_err(|error| Error::Input {
+        file: path.display().to_string(),
+        place: Place::Byte(error.utf8_error().valid_up_to() as u64),
+        message: "expected UTF-8".to_owned(),
+    })
+}
+
+/// Print the effective configuration as commented TOML; `--set` takes its paths
+///
+/// The text reads back with `--config`. Layers: preset, then --config, then --set in order.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  tessim config --preset gf3-2001\n  \
+                        tessim config --set position.width=24 > narrow.toml")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    layered: Layered,
+}
+
+pub(crate) fn run(args: &Args) -> Result<()> {
+    print::print(&args.layered.configuration()?.to_commented_toml())
+}

@@ -1,0 +1,90 @@
+//! The command line: arguments in, text and exit codes out. No logic of the simulation.
+//!
+//! Exit codes: 0 done, 1 a check failed, 2 bad input or usage, 3 the system failed. Errors go to
+//! standard error whatever `-q` says, and begin with the place where that is known. What a command
+//! prints goes to standard output; a reader that leaves early ends the command quietly.
+
+mod config;
+mod counters;
+mod info;
+mod pattern;
+mod print;
+mod progress;
+mod run;
+mod stub;
+mod table;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use tessim::error::Result;
+
+/// Measures GPU tessellation units before they exist: traces of surfaces in, triangles and counters out.
+#[derive(Debug, Parser)]
+#[command(name = "tessim", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(after_help = "Exit codes: 0 done, 1 a check failed, 2 bad input or usage, 3 the system \
+                        failed.\n\nExamples:\n  tessim run traces/teapot.jsonl\n  \
+                        tessim run traces/teapot.jsonl --out result --mesh ply")]
+struct Cli {
+    /// Print no table and no progress; errors are printed all the same
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Args),
+    Info(info::Args),
+    Config(config::Args),
+    Counters(counters::Args),
+    Pattern(pattern::Args),
+}
+
+/// Runs the command that the process was started with.
+pub(crate) fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version come this way too. Whether they could be printed changes nothing.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match cli.run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if print::is_closed(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            anstream::eprintln!("{error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+impl Cli {
+    fn run(&self) -> Result<()> {
+        match &self.command {
+            Command::Run(args) => run::run(args, self.quiet),
+            Command::Info(args) => info::run(args),
+            Command::Config(args) => config::run(args),
+            Command::Counters(args) => counters::run(args),
+            Command::Pattern(args) => pattern::run(args),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definitions_are_consistent_and_every_command_has_two_examples() {
+        Cli::command().debug_assert();
+        for command in Cli::command().get_subcommands() {
+            let help = command.get_after_help().expect(command.get_name()).to_string();
+            let examples = help.lines().filter(|line| line.contains("tessim ")).count();
+            assert!(examples >= 2, "{}: {help}", command.get_name());
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! `pattern`: tessellation factors in, the pattern of the domain out, one line of JSON each.
+//!
+//! One pattern from flags, or many from a file, a line each, as they come. An input line means the
+//! same as the flags in their order: domain, partitioning, topology, factors.
+
+mod batch;
+mod request;
+mod shape;
+
+use super::print;
+use request::{Domain, Partitioning, Request, Topology};
+use std::io::Write;
+use std::path::PathBuf;
+use tessim::error::{Error, Result};
+
+/// Print the tessellation pattern of given factors as JSON
+///
+/// Unit hybrid takes quads with partitioning fractional: the levels of the edges v0 u1 v1 u0 in
+/// segments per whole edge, then optionally those of the interior along u and v. Factors are read as
+/// f32 (nan, inf and -inf too), rounded to UQ8.16 (to nearest, ties to even) and clamped to 1..=128;
+/// nan counts as 1. Points are in U1.16. Indices are flat: 3 a triangle, 2 a line (each distinct edge
+/// once, in the order of first use: our choice), 1 a point.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  tessim pattern --topology ccw --factors 3.3,2.7,5.1,4.2,3,2\n  \
+                        echo 'quad fractional ccw 3.3 2.7 5.1 4.2' | tessim pattern --batch -"
+)]
+pub(crate) struct Args {
+    /// The unit whose pattern it is
+    #[arg(long, value_name = "U", value_enum, default_value = "hybrid")]
+    unit: Unit,
+    /// The domain [default: quad]
+    #[arg(long, value_name = "D", value_enum, conflicts_with = "batch")]
+    domain: Option<Domain>,
+    /// The partitioning [default: fractional]
+    #[arg(long, value_name = "P", value_enum, conflicts_with = "batch")]
+    partitioning: Option<Partitioning>,
+    /// What the indices make [default: ccw]
+    #[arg(long, value_name = "T", value_enum, conflicts_with = "batch")]
+    topology: Option<Topology>,
+    /// The levels v0,u1,v1,u0[,InU,InV]
+    #[arg(long, value_name = "A,B,...", allow_hyphen_values = true)]
+    #[arg(conflicts_with = "batch", required_unless_present = "batch")]
+    factors: Option<String>,
+    /// A file of lines such as `quad fractional ccw 3.3 2.7 5.1 4.2 3 2`; - for standard input
+    #[arg(long, value_name = "FILE")]
+    batch: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Unit {
+    Hybrid,
+}
+
+pub(crate) fn run(args: &Args) -> Result<()> {
+    let Unit::Hybrid = args.unit;
+    let mut out = std::io::BufWriter::new(print::stdout());
+    match (&args.batch, &args.factors) {
+        (Some(path), _) => batch::run(path, &mut out)?,
+        (None, Some(factors)) => {
+            let request = Request::new(
+                args.domain.unwrap_or(Domain::Quad),
+                args.partitioning.unwrap_or(Partitioning::Fractional),
+                args.topology.unwrap_or(Topology::Ccw),
+                factors.split(','),
+            );
+            let request = request.map_err(|fault| match fault.factor {
+                Some(_) => Error::Usage(format!("--factors {factors}: {}", fault.message)),
+                None => Error::Usage(fault.message),
+            })?;
+            shape::write(&request, &mut out).map_err(print::error)?;
+        }
+        (None, None) => unreachable!("clap requires one of the two"),
+    }
+    out.flush().map_err(print::error)
+}

@@ -1,0 +1,34 @@
+//! Standard output: written in one place, so that every command fails and ends the same way.
+
+use std::io::{self, ErrorKind, StdoutLock, Write};
+use std::path::Path;
+use tessim::error::{Error, Result};
+
+const STDOUT: &str = "standard output";
+
+/// Prints `text`, its colours only on a terminal that wants them (`NO_COLOR`).
+pub(crate) fn print(text: &str) -> Result<()> {
+    with(|out| out.write_all(text.as_bytes()))
+}
+
+/// Writes to standard output through a buffer.
+pub(crate) fn with(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    let mut out = io::BufWriter::new(stdout());
+    write(&mut out).and_then(|()| out.flush()).map_err(error)
+}
+
+/// Standard output without a buffer of its own.
+pub(crate) fn stdout() -> anstream::AutoStream<StdoutLock<'static>> {
+    anstream::AutoStream::auto(io::stdout().lock())
+}
+
+/// What went wrong with standard output.
+pub(crate) fn error(source: io::Error) -> Error {
+    Error::system(STDOUT, source)
+}
+
+/// Whether standard output's reader has left: no failure of ours.
+pub(crate) fn is_closed(error: &Error) -> bool {
+    matches!(error, Error::System { path, source }
+        if path == Path::new(STDOUT) && source.kind() == ErrorKind::BrokenPipe)
+}

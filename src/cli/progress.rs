@@ -1,0 +1,51 @@
+//! Progress on standard error, on a terminal only, and never with `-q`.
+//!
+//! The length of a trace is not known while it streams, so what is shown is what has been read.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::time::Duration;
+use tessim::trace::command::Command;
+
+/// A line that says how far a run is. Gone when it is dropped.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    frames: u64,
+    draws: u64,
+    patches: u64,
+}
+
+impl Progress {
+    pub(crate) fn new(quiet: bool) -> Self {
+        let target =
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(None, target);
+        let style = ProgressStyle::with_template("{spinner} {elapsed} {msg}");
+        bar.set_style(style.expect("the template is well formed"));
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_millis(100));
+        }
+        Self { bar, frames: 0, draws: 0, patches: 0 }
+    }
+
+    /// Takes note of a command that has been read.
+    pub(crate) fn command(&mut self, command: &Command) {
+        match command {
+            Command::Frame(_) => self.frames += 1,
+            Command::Draw(draw) => {
+                self.draws += 1;
+                self.patches += draw.primitive.patches() * draw.models.len() as u64;
+            }
+            _ => return,
+        }
+        if !self.bar.is_hidden() {
+            let Self { frames, draws, patches, .. } = self;
+            self.bar.set_message(format!("{frames} frames, {draws} draws, {patches} patches"));
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,172 @@
+//! `run`: a trace through a unit; a table on the terminal, and a result folder where one is asked for.
+
+use super::config::Layered;
+use super::print;
+use super::progress::Progress;
+use super::stub::simulate;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::iter;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use tessim::config::Config;
+use tessim::error::{Error, Result};
+use tessim::output::folder::ResultFolder;
+use tessim::output::mesh::{MeshFile, MeshForm};
+use tessim::output::summary::{DataFile, Provenance};
+use tessim::output::{counters, summary, table};
+use tessim::report::Report;
+use tessim::sink::{NoMesh, Sink};
+use tessim::trace::command::{Command, Header};
+use tessim::trace::read::Reader;
+
+/// Run a trace through a unit
+///
+/// Prints a table; with --out writes config.toml, counters.csv, summary.json and the mesh.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  tessim run traces/teapot.jsonl --set level.level=8\n  \
+                        tessim run traces/teapot.jsonl --out result --mesh ply --frame 0")]
+pub(crate) struct Args {
+    /// The trace; - for standard input
+    trace: PathBuf,
+    #[command(flatten)]
+    layered: Layered,
+    /// What lays time over the blocks [default: none, the only one so far]
+    #[arg(long, value_name = "E", value_parser = ["timed", "stepped", "none"])]
+    engine: Option<String>,
+    /// Threads, any number of which give the same bytes [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Also write the mesh of a frame (with --out)
+    #[arg(long, value_name = "FORM", value_enum)]
+    mesh: Option<Form>,
+    /// The frame whose mesh is written, from 0 [default: 0]
+    #[arg(long, value_name = "N", requires = "mesh")]
+    frame: Option<u64>,
+    /// Write the results into this folder; one that exists is replaced only if a run wrote it
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Form {
+    /// Exact: world and fixed-point clip coordinates, parameters, patches
+    Ply,
+    /// World coordinates as text
+    Obj,
+    /// Wireframe of the projected frame
+    Svg,
+}
+
+impl From<Form> for MeshForm {
+    fn from(form: Form) -> Self {
+        match form {
+            Form::Ply => Self::Ply,
+            Form::Obj => Self::Obj,
+            Form::Svg => Self::Svg,
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
+    args.refuse_what_does_not_exist()?;
+    let config = args.layered.configuration()?;
+    let pool = pool(args.threads)?;
+    let reader = Reader::open(&args.trace)?;
+    let folder = args.out.as_deref().map(ResultFolder::create).transpose()?;
+    let results = args.simulate(reader, &config, &pool, folder.as_ref(), quiet)?;
+    let Results { report, provenance } = results;
+    let host_bytes = summary::host_bytes(&report);
+    if let Some(folder) = folder {
+        write(&folder, &report, &summary::text(&report, &provenance, host_bytes))?;
+        folder.commit()?;
+    }
+    if quiet { Ok(()) } else { print::print(&table::text(&report, &provenance.title, host_bytes)) }
+}
+
+struct Results {
+    report: Report,
+    provenance: Provenance,
+}
+
+impl Args {
+    fn refuse_what_does_not_exist(&self) -> Result<()> {
+        if let Some(engine @ ("timed" | "stepped")) = self.engine.as_deref() {
+            return Err(Error::Usage(format!(
+                "--engine {engine}: the engines do not exist yet; only `none` does, which counts \
+                 everything but cycles"
+            )));
+        }
+        if self.mesh.is_some() && self.out.is_none() {
+            return Err(Error::Usage(
+                "--mesh writes into the result folder: give --out DIR too".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn simulate(
+        &self,
+        mut reader: Reader<Box<dyn std::io::BufRead + Send>>,
+        config: &Config,
+        pool: &ThreadPool,
+        folder: Option<&ResultFolder>,
+        quiet: bool,
+    ) -> Result<Results> {
+        // The header is needed before the rest: a picture bears the trace's title.
+        let first = reader.next().transpose()?;
+        let header = match first.as_ref().map(|located| &located.command) {
+            Some(Command::Header(header)) => header.clone(),
+            _ => Header::default(),
+        };
+        let mut mesh = folder.zip(self.mesh).map(|(folder, form)| {
+            let frame = self.frame.unwrap_or(0);
+            MeshFile::create(form.into(), &folder.path(), frame, &header.title, config)
+        });
+        let mut mesh = mesh.take().transpose()?;
+        let mut progress = Progress::new(quiet);
+        let rest = reader.by_ref();
+        let commands = iter::once(first).flatten().map(Ok).chain(rest).map(|located| {
+            let command = located?.command;
+            progress.command(&command);
+            Ok(command)
+        });
+        let report = pool.install(|| {
+            let mut none = NoMesh;
+            let sink: &mut dyn Sink = match &mut mesh {
+                Some(mesh) => mesh,
+                None => &mut none,
+            };
+            simulate(commands, config, sink)
+        })?;
+        drop(progress);
+        if let Some(mesh) = mesh {
+            mesh.finish(report.frames.len())?;
+        }
+        Ok(Results { report, provenance: provenance(header, &reader)? })
+    }
+}
+
+fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool> {
+    // 0 stands for one thread a core.
+    let threads = threads.map_or(0, NonZeroUsize::get);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Error::system("threads", std::io::Error::other(error)))
+}
+
+fn provenance<R: std::io::BufRead>(header: Header, reader: &Reader<R>) -> Result<Provenance> {
+    let Header { title, source, licence } = header;
+    let files = reader
+        .data_files()
+        .map(|file| Ok(DataFile { name: file.name.clone(), sha256: file.sha256()? }));
+    let files = files.collect::<Result<_>>()?;
+    Ok(Provenance { title, source, licence, sha256: reader.hash(), files })
+}
+
+fn write(folder: &ResultFolder, report: &Report, summary: &str) -> Result<()> {
+    folder.write("config.toml", report.config.to_commented_toml().as_bytes())?;
+    let mut csv = Vec::new();
+    let written = counters::write(report, &mut csv);
+    written.map_err(|error| Error::system(Path::new("counters.csv"), error))?;
+    folder.write("counters.csv", &csv)?;
+    folder.write("summary.json", summary.as_bytes())
+}

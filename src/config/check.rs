@@ -1,0 +1,199 @@
+//! What a configuration must satisfy before a unit is built from it: the range of every key, and what
+//! keys demand of each other. Each failure names the key, what was found and what was expected.
+
+use super::{Config, Criterion, WIDTH_MAX, keys};
+use crate::error::{Error, Result};
+use std::fmt::Display;
+
+/// A value that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The dotted path.
+    pub key: &'static str,
+    /// What was found, and what was expected.
+    pub message: String,
+}
+
+impl Problem {
+    fn found(key: &'static str, found: impl Display) -> Self {
+        let expected = keys::find(key).expect("a checked key is in the table").expected;
+        Self { key, message: format!("found {found}, expected {expected}") }
+    }
+}
+
+impl From<Problem> for Error {
+    fn from(problem: Problem) -> Self {
+        Self::Usage(format!("{}: {}", problem.key, problem.message))
+    }
+}
+
+impl Config {
+    /// Refuses what the hardware could not be built with.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] names the key, what was found and what was expected.
+    pub fn check(&self) -> Result<()> {
+        Ok(self.problem()?)
+    }
+
+    /// As [`Self::check`], with the key apart, so that the layers can say where it was set.
+    pub(super) fn problem(&self) -> Result<(), Problem> {
+        self.formats()?;
+        self.levels()?;
+        self.sizes()
+    }
+
+    fn formats(&self) -> Result<(), Problem> {
+        let width = self.position.width;
+        within("position.width", width, 8, WIDTH_MAX)?;
+        if let Some(log2) = self.position.clip_range_log2 {
+            // The exponents of normal f32 numbers: nothing larger can come out of the shader.
+            within("position.clip_range_log2", log2, -126, 127)?;
+        }
+        let guard = self.guard();
+        if guard < 1 || width.saturating_add(guard).saturating_add(3) > 63 {
+            return Err(Problem::found("evaluate.guard", guard_found(guard, width)));
+        }
+        within("emit.subpixel_bits", self.emit.subpixel_bits, 0, 12)
+    }
+
+    fn levels(&self) -> Result<(), Problem> {
+        let level = &self.level;
+        // UQ16.16 holds no more than 65535 pixels; levels are UQ8.16.
+        number("level.pixels", level.pixels, |p| p > 0.0 && p <= 65535.0)?;
+        number("level.near", level.near, |w| w > 0.0 && w.is_finite())?;
+        let in_range = |l: f64| (1.0..=128.0).contains(&l);
+        number("level.level", level.level, in_range)?;
+        number("level.min_level", level.min_level, in_range)?;
+        number("level.max_level", level.max_level, in_range)?;
+        // Where only one is given, the other is the trace's, and the reader of the trace compares them.
+        if let (Some(min), Some(max)) = (level.min_level, level.max_level)
+            && min > max
+        {
+            return Err(Problem::found("level.min_level", format!("{min} above max_level {max}")));
+        }
+        self.criterion()
+    }
+
+    fn criterion(&self) -> Result<(), Problem> {
+        let level = &self.level;
+        let message = match (level.criterion, level.pixels, level.level) {
+            (None, Some(_), Some(_)) => "found both pixels and level, expected one of them",
+            (Some(Criterion::Fixed), Some(_), _) => "found fixed with pixels, expected level only",
+            (Some(Criterion::Fixed), None, Some(_)) => return Ok(()),
+            (Some(Criterion::Fixed), _, None) => {
+                "found fixed alone, expected level.level beside it"
+            }
+            (Some(_), _, Some(_)) => "found level beside it, expected level only with fixed",
+            (Some(_), None, None) => "found it alone, expected level.pixels beside it",
+            _ => return Ok(()),
+        };
+        Err(Problem { key: "level.criterion", message: message.to_owned() })
+    }
+
+    fn sizes(&self) -> Result<(), Problem> {
+        let most = 65536;
+        within("emit.vertex_bytes", self.emit.vertex_bytes, 1, most)?;
+        within("emit.index_bytes", self.emit.index_bytes, 1, 8)?;
+        within("vertex_shader.bytes_in", self.vertex_shader.bytes_in, 0, most)?;
+        within("vertex_shader.bytes_in_normal", self.vertex_shader.bytes_in_normal, 0, most)?;
+        within("vertex_shader.bytes_out", self.vertex_shader.bytes_out, 0, most)?;
+        within("link.payload", self.link.payload, 0, most)?;
+        within("link.header", self.link.header, 0, most)?;
+        if self.link.payload == 0 && self.link.header != 0 {
+            return Err(Problem::found(
+                "link.header",
+                format!("{} with payload 0", self.link.header),
+            ));
+        }
+        within("memory.burst", self.memory.burst, 1, most)?;
+        within("triangles.vertex_bytes", self.triangles.vertex_bytes, 1, most)
+    }
+}
+
+fn guard_found(guard: u32, width: u32) -> String {
+    format!("{guard} with position.width {width}")
+}
+
+fn within<T: PartialOrd + Display>(
+    key: &'static str,
+    value: T,
+    least: T,
+    most: T,
+) -> Result<(), Problem> {
+    if value < least || value > most { Err(Problem::found(key, value)) } else { Ok(()) }
+}
+
+/// `holds` is false for NaN, whatever it compares with.
+fn number(
+    key: &'static str,
+    value: Option<f64>,
+    holds: impl Fn(f64) -> bool,
+) -> Result<(), Problem> {
+    match value {
+        Some(value) if !holds(value) => Err(Problem::found(key, value)),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(key: &str, change: impl FnOnce(&mut Config)) {
+        let mut config = Config::default();
+        change(&mut config);
+        let problem = config.problem().expect_err(key);
+        assert_eq!(problem.key, key, "{problem:?}");
+        assert!(problem.message.contains("found") && problem.message.contains("expected"));
+    }
+
+    #[test]
+    fn what_cannot_be_built_is_refused_by_its_key() {
+        refused("position.width", |c| c.position.width = 7);
+        refused("position.width", |c| c.position.width = 49);
+        refused("position.width", |c| c.position.width = u32::MAX);
+        refused("position.clip_range_log2", |c| c.position.clip_range_log2 = Some(128));
+        refused("evaluate.guard", |c| c.evaluate.guard = Some(0));
+        refused("evaluate.guard", |c| c.evaluate.guard = Some(29));
+        refused("evaluate.guard", |c| c.evaluate.guard = Some(u32::MAX));
+        refused("level.pixels", |c| c.level.pixels = Some(0.0));
+        refused("level.pixels", |c| c.level.pixels = Some(f64::NAN));
+        refused("level.near", |c| c.level.near = Some(f64::INFINITY));
+        refused("level.level", |c| c.level.level = Some(0.5));
+        refused("level.max_level", |c| c.level.max_level = Some(129.0));
+        refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
+        refused("link.header", |c| c.link.payload = 0);
+        refused("memory.burst", |c| c.memory.burst = 0);
+        refused("level.min_level", |c| {
+            c.level.min_level = Some(4.0);
+            c.level.max_level = Some(3.0);
+        });
+    }
+
+    #[test]
+    fn a_criterion_needs_its_number_and_no_other() {
+        let with = |criterion, pixels, level| {
+            let mut config = Config::default();
+            (config.level.criterion, config.level.pixels, config.level.level) =
+                (criterion, pixels, level);
+            config.problem().is_ok()
+        };
+        use Criterion::{EdgeLength, Fixed, Flatness};
+        let (p, l) = (Some(0.5), Some(8.0));
+        assert!(with(None, None, None) && with(None, p, None) && with(None, None, l));
+        assert!(with(Some(Flatness), p, None) && with(Some(Fixed), None, l));
+        assert!(!with(None, p, l) && !with(Some(Fixed), p, l) && !with(Some(Fixed), p, None));
+        assert!(!with(Some(Flatness), None, l) && !with(Some(EdgeLength), None, None));
+        assert!(!with(Some(EdgeLength), p, l));
+    }
+
+    #[test]
+    fn the_default_guard_leaves_room_at_every_width() {
+        for width in 8..=WIDTH_MAX {
+            let mut config = Config::default();
+            config.position.width = width;
+            assert_eq!(config.problem(), Ok(()), "width {width}");
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! A file that appears when it is complete: written under another name in the same folder, renamed at
+//! the end, and gone if it never gets there.
+
+use crate::error::{Error, Result};
+use std::fs::{File, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// A file under construction.
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    file: BufWriter<NamedTempFile>,
+}
+
+impl AtomicFile {
+    /// Begins the file that will be at `path`.
+    ///
+    /// # Errors
+    /// [`Error::System`] when its folder does not exist or cannot be written.
+    pub fn create(path: impl Into<PathBuf>) -> Result<Self> {
+        let path = path.into();
+        if path.is_dir() {
+            return Err(Error::system(path, io::ErrorKind::IsADirectory.into()));
+        }
+        let mut builder = Builder::new();
+        builder.prefix(".tessim-").permissions(usual_permissions(0o666));
+        let file = builder.tempfile_in(parent(&path));
+        let file = file.map_err(|error| Error::system(&path, reason(error)))?;
+        Ok(Self { path, file: BufWriter::new(file) })
+    }
+
+    /// Renames the complete file into place, over whatever file was there.
+    ///
+    /// # Errors
+    /// [`Error::System`] when what is left cannot be written, or the file not be renamed.
+    pub fn commit(self) -> Result<()> {
+        let Self { path, file } = self;
+        let file = file.into_inner().map_err(|error| Error::system(&path, error.into_error()))?;
+        let done = file.persist(&path);
+        done.map(drop).map_err(|error| Error::system(path, error.error))
+    }
+
+    /// Where it will be.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// A file without a name in the folder of `path`, for data whose place in the result is not yet known.
+///
+/// # Errors
+/// [`Error::System`] when the folder cannot be written.
+pub fn spool(path: &Path) -> Result<BufWriter<File>> {
+    let file = tempfile::tempfile_in(parent(path));
+    file.map(BufWriter::new).map_err(|error| Error::system(path, reason(error)))
+}
+
+/// Appends everything in `spool` to `out`.
+///
+/// # Errors
+/// [`Error::System`] on `path`.
+pub fn unspool(spool: BufWriter<File>, out: &mut impl Write, path: &Path) -> Result<()> {
+    use std::io::Seek;
+    let file = spool.into_inner().map_err(io::IntoInnerError::into_error);
+    let copied = file.and_then(|mut file| {
+        file.rewind()?;
+        io::copy(&mut file, out)
+    });
+    copied.map(drop).map_err(|error| Error::system(path, error))
+}
+
+/// The folder that holds `path`.
+#[must_use]
+pub fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// `tempfile` names its own random path in the error; the user's path is the one to name.
+pub(super) fn reason(error: io::Error) -> io::Error {
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            io::Error::new(io::ErrorKind::NotFound, "the folder to write in does not exist")
+        }
+        kind => error.raw_os_error().map_or_else(|| kind.into(), io::Error::from_raw_os_error),
+    }
+}
+
+/// What a plain `open` or `mkdir` would ask for; the umask applies.
+pub(super) fn usual_permissions(mode: u32) -> Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    Permissions::from_mode(mode)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_file_appears_when_it_is_complete_and_not_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.write_all(b"half").unwrap();
+        file.flush().unwrap();
+        assert!(!path.exists());
+        drop(file);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.write_all(b"whole").unwrap();
+        file.commit().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"whole");
+    }
+
+    #[test]
+    fn a_missing_folder_is_the_systems_failure_and_names_the_users_path() {
+        let error = AtomicFile::create("/nonexistent/x/a.txt").unwrap_err();
+        assert_eq!(error.exit_code(), 3);
+        let message = error.to_string();
+        assert_eq!(message, "/nonexistent/x/a.txt: the folder to write in does not exist");
+    }
+}

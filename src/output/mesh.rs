@@ -1,0 +1,121 @@
+//! The mesh of one frame, in the form that was asked for: a [`Sink`] that wants that frame and no other.
+
+use super::file::AtomicFile;
+use super::obj::Obj;
+use super::ply::Ply;
+use super::svg::Svg;
+use crate::config::Config;
+use crate::error::{Error, Result};
+use crate::sink::{FrameInfo, PatchMesh, Sink};
+use std::path::Path;
+
+/// Forms of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshForm {
+    /// Exact, for programs.
+    Ply,
+    /// For other programs.
+    Obj,
+    /// A wireframe of the projected frame, for people.
+    Svg,
+}
+
+impl MeshForm {
+    /// The name of its file in a result folder.
+    #[must_use]
+    pub const fn file_name(self) -> &'static str {
+        match self {
+            Self::Ply => "mesh.ply",
+            Self::Obj => "mesh.obj",
+            Self::Svg => "mesh.svg",
+        }
+    }
+}
+
+/// A mesh file under construction.
+#[derive(Debug)]
+pub struct MeshFile {
+    number: u64,
+    frame: Option<FrameInfo>,
+    form: Form,
+}
+
+#[derive(Debug)]
+enum Form {
+    Ply(Ply),
+    Obj(Obj),
+    Svg(Svg),
+}
+
+impl MeshFile {
+    /// Begins the mesh of frame `number` in `folder`.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when the configuration makes nothing to draw, [`Error::System`] when it cannot be
+    /// written there.
+    pub fn create(
+        form: MeshForm,
+        folder: &Path,
+        number: u64,
+        title: &str,
+        config: &Config,
+    ) -> Result<Self> {
+        if form == MeshForm::Svg && !config.emit.divide {
+            return Err(Error::Usage(
+                "--mesh svg draws screen positions, which `emit.divide = false` leaves out"
+                    .to_owned(),
+            ));
+        }
+        let out = AtomicFile::create(folder.join(form.file_name()))?;
+        let form = match form {
+            MeshForm::Ply => Form::Ply(Ply::create(out)?),
+            MeshForm::Obj => Form::Obj(Obj::create(out)?),
+            MeshForm::Svg => Form::Svg(Svg::create(out, title, config.emit.subpixel_bits)?),
+        };
+        Ok(Self { number, frame: None, form })
+    }
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when the frame never came, [`Error::System`] when the file cannot be written.
+    pub fn finish(self, frames: usize) -> Result<()> {
+        if self.frame.is_none() {
+            let number = self.number;
+            let numbered = match frames {
+                0 => "the trace has none".to_owned(),
+                1 => "the trace has frame 0 only".to_owned(),
+                _ => format!("the trace has frames 0 to {}", frames - 1),
+            };
+            return Err(Error::Usage(format!("--frame {number}: no such frame: {numbered}")));
+        }
+        match self.form {
+            Form::Ply(ply) => ply.finish(),
+            Form::Obj(obj) => obj.finish(),
+            Form::Svg(svg) => svg.finish(),
+        }
+    }
+}
+
+impl Sink for MeshFile {
+    fn wants(&self, frame: u64) -> bool {
+        frame == self.number
+    }
+
+    fn frame(&mut self, frame: &FrameInfo) -> Result<()> {
+        self.frame = Some(*frame);
+        if let Form::Svg(svg) = &mut self.form {
+            svg.frame(frame);
+        }
+        Ok(())
+    }
+
+    fn patch(&mut self, mesh: &PatchMesh<'_>) -> Result<()> {
+        let frame = self.frame.as_ref().expect("a frame begins before its patches");
+        match &mut self.form {
+            Form::Ply(ply) => ply.patch(frame, mesh),
+            Form::Obj(obj) => obj.patch(frame, mesh),
+            Form::Svg(svg) => svg.patch(frame, mesh),
+        }
+    }
+}

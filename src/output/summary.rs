@@ -1,0 +1,164 @@
+//! `summary.json`: what a run was made of and what came of it, for programs that do not want to add up
+//! rows: totals, rates with their units, shares, and the hashes that reproduce it.
+
+use super::counters::unit_name;
+use crate::config::Engine;
+use crate::report::Report;
+use rtl_model::counter::{Block, Counter, Counters};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// What a run read: the trace and the files that it names.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Provenance {
+    /// The trace's title.
+    pub title: String,
+    /// Where the trace's data come from.
+    pub source: String,
+    /// The licence of the trace's data.
+    pub licence: String,
+    /// SHA-256 of the trace, hexadecimal.
+    pub sha256: String,
+    /// The files that the trace names, in the order of their first use.
+    pub files: Vec<DataFile>,
+}
+
+/// A file that a trace names.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DataFile {
+    /// As the trace names it: relative to the trace's folder.
+    pub name: String,
+    /// SHA-256, hexadecimal.
+    pub sha256: String,
+}
+
+/// The text of `summary.json`. `host_bytes` is what would cross the link if the host tessellated.
+#[must_use]
+pub fn text(report: &Report, provenance: &Provenance, host_bytes: u64) -> String {
+    let totals = report.totals();
+    let value = json!({
+        "tessim": env!("CARGO_PKG_VERSION"),
+        "trace": provenance,
+        "unit": unit_name(report.config.unit),
+        "engine": match report.config.engine { Engine::None => "none" },
+        "frames": report.frames.len(),
+        "totals": totals_by_name(report, &totals),
+        "rates": rates(report, &totals, host_bytes),
+        "shares": shares(report, &totals),
+    });
+    let mut text = serde_json::to_string_pretty(&value).expect("names and numbers are JSON");
+    text.push('\n');
+    text
+}
+
+/// Whether the file at `path` is a summary that some version of `tessim` wrote.
+#[must_use]
+pub fn is_summary(path: &Path) -> bool {
+    std::fs::read(path)
+        .ok()
+        .and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok())
+        .is_some_and(|summary| summary.get("tessim").is_some_and(Value::is_string))
+}
+
+/// What would cross the link if the host tessellated into the same triangles: every vertex with its
+/// attributes, indices of 2 bytes (patches are drawn one by one, none has more than 65536 vertices),
+/// and the commands and matrices, which stay. Framing is left out.
+#[must_use]
+pub fn host_bytes(report: &Report) -> u64 {
+    let totals = report.totals();
+    let vertices =
+        totals.get(Counter::EmitVertices) * u64::from(report.config.triangles.vertex_bytes);
+    let indices = 3 * 2 * totals.get(Counter::EmitTriangles);
+    let state = totals.get(Counter::LinkCommands) + totals.get(Counter::LinkMatrices);
+    vertices + indices + state
+}
+
+fn totals_by_name(report: &Report, totals: &Counters) -> Value {
+    let named = report.declarations().map(|declared| {
+        let name = format!("{}.{}", declared.block.name(), declared.name);
+        (name, totals.get(declared.counter).into())
+    });
+    Value::Object(named.collect())
+}
+
+/// A ratio, or `None` where there is nothing to divide by.
+#[must_use]
+pub fn ratio(of: u64, per: u64) -> Option<f64> {
+    (per != 0).then(|| of as f64 / per as f64)
+}
+
+fn rates(report: &Report, totals: &Counters, host_bytes: u64) -> Value {
+    let link = totals.get(Counter::LinkTotal);
+    let triangles = totals.get(Counter::EmitTriangles);
+    let patches = totals.get(Counter::TracePatches);
+    let frames = report.frames.len() as u64;
+    let rate = |of, per, unit: &str| json!({ "value": ratio(of, per), "unit": unit });
+    json!({
+        "link_bytes_per_triangle": rate(link, triangles, "bytes/triangle"),
+        "link_bytes_per_triangle_if_the_host_tessellated":
+            rate(host_bytes, triangles, "bytes/triangle"),
+        "link_bytes_per_patch": rate(link, patches, "bytes/patch"),
+        "link_bytes_per_frame": rate(link, frames, "bytes/frame"),
+        "triangles_per_patch": rate(triangles, patches, "triangles/patch"),
+        "triangles_per_frame": rate(triangles, frames, "triangles/frame"),
+        "vertices_per_triangle":
+            rate(totals.get(Counter::EmitVertices), triangles, "vertices/triangle"),
+    })
+}
+
+fn shares(report: &Report, totals: &Counters) -> Value {
+    let mut shares = Map::new();
+    let mut share = |name: String, of, per| {
+        shares.insert(name, ratio(of, per).into());
+    };
+    let link = totals.get(Counter::LinkTotal);
+    let kinds = report
+        .declarations()
+        .filter(|declared| declared.block == Block::Link && declared.counter != Counter::LinkTotal);
+    for kind in kinds {
+        share(format!("link.{} of link bytes", kind.name), totals.get(kind.counter), link);
+    }
+    let patches = totals.get(Counter::TracePatches);
+    let share_of_patches = [
+        (Block::Clip, "patches clipped", Counter::ClipCulled),
+        (Block::Backface, "patches back-facing", Counter::BackfaceCulled),
+        (Block::Level, "patches tessellated", Counter::LevelPatches),
+    ];
+    for (block, name, counter) in share_of_patches {
+        if report.blocks.contains(&block) {
+            share(format!("{name} of patches"), totals.get(counter), patches);
+        }
+    }
+    Value::Object(shares)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    #[test]
+    fn a_summary_knows_itself_and_divides_by_nothing() {
+        let mut counters = Counters::default();
+        counters.add(Counter::LinkTotal, 300);
+        counters.add(Counter::EmitTriangles, 8);
+        let blocks = &[Block::Link, Block::Clip, Block::Emit];
+        let report = Report { config: Config::default(), blocks, frames: vec![counters] };
+        let text = text(&report, &Provenance::default(), 100);
+        let value: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["totals"]["link.bytes.total"], 300);
+        assert_eq!(value["rates"]["link_bytes_per_triangle"]["value"], 37.5);
+        assert_eq!(value["rates"]["link_bytes_per_patch"]["value"], Value::Null);
+        assert_eq!(value["shares"]["patches clipped of patches"], Value::Null);
+        assert_eq!(value["shares"]["link.bytes.commands of link bytes"], 0.0);
+        assert!(value["totals"].get("stitch.triangles").is_none());
+
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("summary.json");
+        std::fs::write(&path, text).unwrap();
+        assert!(is_summary(&path));
+        std::fs::write(&path, "{\"name\":\"tessim\"}").unwrap();
+        assert!(!is_summary(&path));
+    }
+}
