@@ -12,7 +12,7 @@ use super::points::PointSource;
 pub use rtl_model::assemble::Primitive;
 
 /// One command.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// The first command of every trace.
     Header(Header),
@@ -64,7 +64,7 @@ pub struct Range {
 }
 
 /// Points under an id.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Points {
     /// The id that draws name.
     pub id: u32,
@@ -97,7 +97,7 @@ impl Default for Tessellation {
 pub const IDENTITY: [f32; 16] = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
 
 /// A draw of surfaces that share their state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
     /// What the points mean.
     pub primitive: Primitive,
