@@ -1,7 +1,10 @@
 //! To come.
 pub mod config;
 pub mod error;
+pub mod link;
 pub mod output;
 pub mod report;
+pub mod shader;
 pub mod sink;
 pub mod trace;
+pub mod unit;

@@ -1,6 +1,23 @@
 //! Level: patches in, a tessellation level for each edge and for the interior out.
+//!
+//! An edge's level is a function of that edge's own four points, the frame and the tessellation state, and the same
+//! from either end: so neighbours agree. Points are projected to pixels (Q24.16, rounded once); from there on every
+//! decision is exact in integers.
+//!
+//! - flatness, edges: n = sqrt(3/4 max(|P0-2P1+P2|, |P1-2P2+P3|) / d) (second-derivative bound, Wang 1984).
+//! - flatness, interior: at least that of every row (column) of the net, and both raised by one factor until
+//!   1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2) <= d (Filip, Magedson, Markot 1986), so that a twist is seen too.
+//! - edge_length: length of the projected control polygon / pixels; interior: the longest of the four rows (columns).
+//! - fixed: the level, edges and interior alike.
+//!
+//! A point with w below the near threshold, or so far outside that its projection does not fit, has no useful
+//! projection: its edges, and the interior, take the greatest level. For perspective patches the flatness bounds are
+//! estimates, since a projected cubic is rational.
 
-use crate::patch::Level;
+mod bound;
+
+use crate::number::{NearestEven, divide};
+use crate::patch::{EDGES, Level, Levels, ONE, Patch, Point, View};
 
 /// How levels are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,4 +37,101 @@ pub enum Criterion {
         /// The level.
         level: Level,
     },
+}
+
+/// The tessellation state of a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct State {
+    /// The criterion.
+    pub criterion: Criterion,
+    /// Least level.
+    pub min: Level,
+    /// Greatest level, at least `min`.
+    pub max: Level,
+}
+
+/// What happened while the levels of a patch were chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Events {
+    /// Levels, of six, of which the criterion asked more than the greatest.
+    pub clamped: u32,
+    /// Edges given the greatest level because a point of theirs is too near.
+    pub near: u32,
+    /// Control points whose projection did not fit.
+    pub overflows: u32,
+}
+
+/// A projected point in pixels, Q24.16; `None` where there is none.
+type Pixel = Option<[i64; 2]>;
+
+/// Largest projected coordinate, 2^23 pixels in Q24.16.
+const PIXEL_MAX: i128 = (1 << 39) - 1;
+
+/// Chooses the levels of a patch.
+#[must_use]
+pub fn accept(patch: &Patch, view: &View, state: &State) -> (Levels, Events) {
+    let mut events = Events::default();
+    let asked = match state.criterion {
+        Criterion::Fixed { level } => Asked::same(u64::from(level.fx16())),
+        Criterion::Flatness { pixels } | Criterion::EdgeLength { pixels } => {
+            let points = patch.points.map(|p| project(p, view, &mut events));
+            events.near =
+                EDGES.iter().filter(|e| e.iter().any(|&k| points[k].is_none())).count() as u32;
+            match state.criterion {
+                Criterion::EdgeLength { .. } => bound::edge_length(&points, pixels),
+                _ => bound::flatness(&points, pixels, state),
+            }
+        }
+    };
+    (asked.granted(state, &mut events), events)
+}
+
+/// What the criterion asks for, UQ48.16; `None` where a point has no projection.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    edges: [Option<u64>; 4],
+    interior: [Option<u64>; 2],
+}
+
+impl Asked {
+    fn same(level: u64) -> Self {
+        Self { edges: [Some(level); 4], interior: [Some(level); 2] }
+    }
+
+    /// The levels within the state's bounds. An interior is never coarser than the edges that run along it.
+    fn granted(self, state: &State, events: &mut Events) -> Levels {
+        let mut grant = |asked: Option<u64>| match asked {
+            None => state.max,
+            Some(level) => {
+                events.clamped += u32::from(level > u64::from(state.max.fx16()));
+                clamp(level, state)
+            }
+        };
+        let edges = self.edges.map(&mut grant);
+        let [u, v] = self.interior.map(&mut grant);
+        Levels { edges, interior: [u.max(edges[0]).max(edges[2]), v.max(edges[1]).max(edges[3])] }
+    }
+}
+
+fn clamp(level: u64, state: &State) -> Level {
+    Level::clamped(level.clamp(state.min.fx16().into(), state.max.fx16().into()))
+}
+
+/// `x / w` in pixels. The offset of the viewport's centre does not matter to any criterion, nor does the direction
+/// of y, so both are left out.
+fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
+    if w < view.near || w <= 0 {
+        return None;
+    }
+    let [width, height] = view.viewport.map(i128::from);
+    let pixel = |c: i64, size: i128| {
+        // c / w * size / 2 * 2^16: W + 14 + 15 bits over W bits
+        divide::<NearestEven>(i128::from(c) * size * i128::from(ONE / 2), w.into())
+    };
+    let (px, py) = (pixel(x, width), pixel(y, height));
+    if px.abs() > PIXEL_MAX || py.abs() > PIXEL_MAX {
+        events.overflows += 1;
+        return None;
+    }
+    Some([px as i64, py as i64])
 }

@@ -1,1 +1,205 @@
-//! To come.
+//! Place: levels in, parameter lists out (fractional).
+//!
+//! Moreton 2001 by way of Munkberg et al. 2008, section 2: an edge is two half-edges, each walked from its corner in
+//! steps of 1/level, the last step shortened to meet the other half at the centre. Levels between 1 and 2, where no
+//! vertex has reached the centre yet, have three segments:
+//!
+//! ```text
+//!   level 1     o───────────────────────────o   0, 1
+//!   1 < s < 2   o──o─────────────────────o──o   0, 1 - 1/s, 1/s, 1: each half-run's one step passes the centre
+//!   level 2     o─────────────o─────────────o
+//!   5           o────o────o────┬────o────o────o  0 1/5 2/5 1/2 3/5 4/5 1: 2 ceil(level / 2) segments
+//! ```
+//!
+//! The one division of a level is R = floor(2^48 / level) in U0.32; it serves the parameters, rounded half up to
+//! U1.16, and the step of the forward differences, so that both agree and no half-run ever passes the centre.
+
+use crate::patch::{HALF, Level, Levels, ONE};
+
+/// Most entries of a list: level 128.
+const ENTRIES_MAX: usize = 129;
+
+/// The parameters along one direction at one level.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct List {
+    level: Level,
+    reciprocal: u64,
+    segments: usize,
+    parameters: [u32; ENTRIES_MAX],
+}
+
+impl Default for List {
+    fn default() -> Self {
+        let mut list = Self {
+            level: Level::MIN,
+            reciprocal: 1 << 32,
+            segments: 0,
+            parameters: [0; ENTRIES_MAX],
+        };
+        list.fill();
+        list
+    }
+}
+
+impl List {
+    /// The list of a level.
+    #[must_use]
+    pub fn of(level: Level) -> Self {
+        let mut list = Self::default();
+        list.set(level);
+        list
+    }
+
+    /// Makes this the list of `level`; nothing to do where it is already.
+    pub fn set(&mut self, level: Level) {
+        if level != self.level {
+            self.level = level;
+            self.reciprocal = (1 << 48) / u64::from(level.fx16());
+            self.fill();
+        }
+    }
+
+    /// The level.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// 1 / level truncated to 32 fraction bits; 2^32 for level 1.
+    #[must_use]
+    pub fn reciprocal(&self) -> u64 {
+        self.reciprocal
+    }
+
+    /// Segments: 1, 3 or an even number to 128.
+    #[must_use]
+    pub fn segments(&self) -> usize {
+        self.segments
+    }
+
+    /// Segments of a half-list, not counting one across the centre: 0, 1 or half the segments.
+    #[must_use]
+    pub fn half_segments(&self) -> usize {
+        self.segments / 2
+    }
+
+    /// Whether a segment crosses the centre (1 < level < 2), or is all there is (level 1).
+    #[must_use]
+    pub fn crosses_centre(&self) -> bool {
+        self.segments % 2 == 1
+    }
+
+    /// The parameters in U1.16, from 0 to 1, ascending: one more than segments.
+    #[must_use]
+    pub fn parameters(&self) -> &[u32] {
+        &self.parameters[..=self.segments]
+    }
+
+    fn fill(&mut self) {
+        let step = |k: usize| ((k as u64 * self.reciprocal + (1 << 15)) >> 16) as u32; // U1.16
+        let level = self.level;
+        if level == Level::MIN {
+            self.segments = 1;
+        } else if level < Level::TWO {
+            self.segments = 3;
+            self.parameters[1] = ONE - step(1);
+            self.parameters[2] = step(1);
+        } else {
+            // ceil(level / 2); an integer needs no case, for k < half drops the duplicate of the centre
+            let half = ((u64::from(level.fx16()) + 0x1_ffff) >> 17) as usize;
+            self.segments = 2 * half;
+            for k in 1..half {
+                self.parameters[k] = step(k);
+                self.parameters[2 * half - k] = ONE - step(k);
+            }
+            self.parameters[half] = HALF;
+        }
+        self.parameters[0] = 0;
+        self.parameters[self.segments] = ONE;
+    }
+}
+
+/// Where a patch gets its vertices.
+#[derive(Clone, Debug, Default)]
+pub struct Placement {
+    /// The lists of the edges v0, u1, v1, u0.
+    pub edges: [List; 4],
+    /// The list of the interior along u; its inner entries are the interior's columns.
+    pub u: List,
+    /// The list of the interior along v.
+    pub v: List,
+    reciprocals: u32,
+}
+
+impl Placement {
+    /// Places the vertices of a patch with these levels.
+    ///
+    /// The interior's levels are raised to min(m, 2), m the greatest level of all: otherwise a direction that leaves
+    /// level 1 would make a whole column of points appear on an edge that has no vertices there.
+    pub fn set(&mut self, levels: &Levels) {
+        let [u, v] = levels.interior;
+        let most = levels.edges.into_iter().fold(u.max(v), Level::max);
+        let least = most.min(Level::TWO);
+        for (list, level) in self.edges.iter_mut().zip(levels.edges) {
+            list.set(level);
+        }
+        self.u.set(u.max(least));
+        self.v.set(v.max(least));
+        self.reciprocals = self.distinct_levels();
+    }
+
+    /// Levels above 1 that differ from each other: the divisions that this patch costs.
+    fn distinct_levels(&self) -> u32 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.edges[k].level());
+        let levels = [a, b, c, d, self.u.level(), self.v.level()];
+        let first = |k: usize| levels[k] > Level::MIN && !levels[..k].contains(&levels[k]);
+        (0..6).filter(|&k| first(k)).count() as u32
+    }
+
+    /// Divisions: one for each distinct level above 1.
+    #[must_use]
+    pub fn reciprocals(&self) -> u32 {
+        self.reciprocals
+    }
+
+    /// Vertices on the boundary, which is also its segments.
+    #[must_use]
+    pub fn boundary(&self) -> usize {
+        self.edges.iter().map(List::segments).sum()
+    }
+
+    /// Columns and rows of interior vertices.
+    #[must_use]
+    pub fn interior(&self) -> [usize; 2] {
+        [self.u.segments() - 1, self.v.segments() - 1]
+    }
+
+    /// Vertices in all.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        let [columns, rows] = self.interior();
+        self.boundary() + columns * rows
+    }
+
+    /// Numbers of the first boundary vertex of each edge, counter-clockwise from (0, 0), and then of the first
+    /// interior vertex: the patch's numbering of vertices is by this order, interior row by row.
+    #[must_use]
+    pub fn starts(&self) -> [usize; 5] {
+        let mut start = 0;
+        let mut starts = [0; 5];
+        for (k, edge) in self.edges.iter().enumerate() {
+            starts[k] = start;
+            start += edge.segments();
+        }
+        starts[4] = start;
+        starts
+    }
+
+    /// The vertex at entry `k` of the list of `edge`.
+    #[must_use]
+    #[inline]
+    pub fn boundary_vertex(&self, starts: &[usize; 5], edge: usize, k: usize) -> usize {
+        let vertex = if edge < 2 { starts[edge] + k } else { starts[edge + 1] - k };
+        if vertex == starts[4] { 0 } else { vertex } // v1 and u0 run against the numbering
+    }
+}

@@ -11,7 +11,6 @@ mod pattern;
 mod print;
 mod progress;
 mod run;
-mod stub;
 mod table;
 
 use clap::{Parser, Subcommand};

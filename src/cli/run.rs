@@ -3,7 +3,6 @@
 use super::config::Layered;
 use super::print;
 use super::progress::Progress;
-use super::stub::simulate;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::iter;
 use std::num::NonZeroUsize;
@@ -18,6 +17,7 @@ use tessim::report::Report;
 use tessim::sink::{NoMesh, Sink};
 use tessim::trace::command::{Command, Header};
 use tessim::trace::read::Reader;
+use tessim::unit::simulate;
 
 /// Run a trace through a unit
 ///

@@ -9,8 +9,10 @@ use std::sync::Arc;
 
 use super::points::PointSource;
 
+pub use rtl_model::assemble::Primitive;
+
 /// One command.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// The first command of every trace.
     Header(Header),
@@ -62,7 +64,7 @@ pub struct Range {
 }
 
 /// Points under an id.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Points {
     /// The id that draws name.
     pub id: u32,
@@ -95,7 +97,7 @@ impl Default for Tessellation {
 pub const IDENTITY: [f32; 16] = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
 
 /// A draw of surfaces that share their state.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
     /// What the points mean.
     pub primitive: Primitive,
@@ -111,43 +113,4 @@ pub struct Draw {
     pub reversed: bool,
     /// Back-facing patches may be removed (default true).
     pub cull: bool,
-}
-
-/// How the points of a draw form patches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Primitive {
-    /// `count` patches of 16 points each.
-    Patches {
-        /// Patches.
-        count: u64,
-    },
-    /// `rows` by `columns` patches over `(3 rows + 1)` by `(3 columns + 1)` points, row-major.
-    Mesh {
-        /// Patches along v.
-        rows: u32,
-        /// Patches along u.
-        columns: u32,
-    },
-}
-
-impl Primitive {
-    /// Patches in one instance.
-    #[must_use]
-    pub fn patches(self) -> u64 {
-        match self {
-            Self::Patches { count } => count,
-            Self::Mesh { rows, columns } => u64::from(rows) * u64::from(columns),
-        }
-    }
-
-    /// Points that one instance uses.
-    #[must_use]
-    pub fn points(self) -> u64 {
-        match self {
-            Self::Patches { count } => 16 * count,
-            Self::Mesh { rows, columns } => {
-                (3 * u64::from(rows) + 1) * (3 * u64::from(columns) + 1)
-            }
-        }
-    }
 }

@@ -1,8 +1,11 @@
 //! The command stream: types, the text form, importers, scenes.
 
 pub mod command;
+pub mod import;
 pub mod points;
 pub mod read;
+pub mod scene;
+pub mod write;
 
 mod draw;
 mod fast;

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 const READ_BYTES: usize = 1 << 18;
 
 /// A command and the line where it stands, from 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Located {
     /// The command.
     pub command: Command,

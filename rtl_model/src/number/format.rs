@@ -1,30 +1,6 @@
-//! A fixed-point format is a value: a width, a number of fraction bits. Rounding and overflow are named modes.
+//! A format is a value: a width and the place of the binary point.
 
-use serde::{Deserialize, Serialize};
-
-/// How a value between two representable ones is rounded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Rounding {
-    /// Towards minus infinity ("truncate").
-    Floor,
-    /// To nearest, ties towards plus infinity.
-    NearestUp,
-    /// To nearest, ties to the even integer.
-    NearestEven,
-    /// To nearest, ties away from zero.
-    NearestAway,
-}
-
-/// What becomes of a value that does not fit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Overflow {
-    /// The low bits are kept, as two's complement.
-    Wrap,
-    /// The nearest of the two ends of the symmetric range +-(2^(width-1) - 1).
-    Saturate,
-}
+use super::{Overflow, OverflowMode};
 
 /// A signed fixed-point format: `width` bits in all, of which `fraction` stand behind the binary point. `fraction` may
 /// be negative or exceed `width`: the point then lies outside the bits.
@@ -34,4 +10,43 @@ pub struct Format {
     pub width: u32,
     /// Bits behind the binary point.
     pub fraction: i32,
+}
+
+impl Format {
+    /// The format of `width` bits whose range is +-2^`range_log2`.
+    ///
+    /// # Panics
+    /// When the width is not 2..=48.
+    #[must_use]
+    pub fn of_range(width: u32, range_log2: i32) -> Self {
+        assert!((2..=48).contains(&width), "a width of {width} bits is outside 2..=48");
+        Self { width, fraction: width as i32 - 1 - range_log2 }
+    }
+
+    /// The largest raw integer, 2^(width-1) - 1.
+    #[must_use]
+    #[inline]
+    pub const fn max(self) -> i64 {
+        (1 << (self.width - 1)) - 1
+    }
+
+    /// The raw integer that `value` becomes, and whether it did not fit.
+    ///
+    /// Saturation keeps to the symmetric range; wrapping uses all of two's complement.
+    #[must_use]
+    #[inline]
+    pub fn fit<O: OverflowMode>(self, value: i128) -> (i64, bool) {
+        let max = i128::from(self.max());
+        match O::MODE {
+            Overflow::Saturate => {
+                let fitted = value.clamp(-max, max);
+                (fitted as i64, fitted != value)
+            }
+            Overflow::Wrap => {
+                let unused = 64 - self.width;
+                let fitted = ((value as i64) << unused) >> unused;
+                (fitted, i128::from(fitted) != value)
+            }
+        }
+    }
 }

@@ -1,10 +1,10 @@
 //! A request in, its line of output out.
 
-use super::super::stub::{Pattern, fractional_quad};
 use super::request::{Domain, Factor, Partitioning, Request, Topology};
 use serde::Serialize;
 use std::io::{self, Write};
 use tessim::output::edges;
+use tessim::unit::pattern::{Pattern, fractional_quad};
 
 #[derive(Serialize)]
 struct Shape<'a> {

@@ -1,0 +1,40 @@
+//! How fast a text trace is read: bytes a second over long lines of points, over draws with many instances, and over
+//! lines as short as the format has.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+use tessim::trace::command::Tessellation;
+use tessim::trace::read::Reader;
+use tessim::trace::scene::grid::Grid;
+use tessim::trace::scene::teacups::Teacups;
+
+fn read(criterion: &mut Criterion) {
+    let tessellation = Tessellation::default();
+    let mut points = Vec::new();
+    let grid = Grid { rows: 128, columns: 128, tessellation };
+    grid.write(&mut points).expect("memory takes all");
+    let mut instances = Vec::new();
+    let teacups = Teacups { count: 100, frames: 100, tessellation };
+    teacups.write(&mut instances).expect("memory takes all");
+    let short = "{\"tessim\":1}\n".to_string()
+        + &"{\"tessellation\":{\"criterion\":\"fixed\",\"level\":4}}\n".repeat(20_000)
+        + "{\"end\":{}}\n";
+    let mut group = criterion.benchmark_group("read");
+    group.sample_size(20);
+    for (name, text) in
+        [("points", points), ("instances", instances), ("short lines", short.into_bytes())]
+    {
+        group.throughput(Throughput::Bytes(text.len() as u64));
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                for command in Reader::new(&text[..], "bench.jsonl", ".") {
+                    black_box(command.expect("the trace is well-formed"));
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, read);
+criterion_main!(benches);

@@ -1,0 +1,134 @@
+//! Forward differencing in half-runs: from each end of a cubic to its middle, a step of three additions a vertex.
+//!
+//! Moreton 2001 (half-edges, reversed curves); the set-up in integers is ours. With W the position width, g the guard
+//! bits and R = 1/level in U0.32 (the truncated reciprocal that also made the parameters):
+//!
+//! ```text
+//!   a = -B0+3B1-3B2+B3   b = 3B0-6B1+3B2   c = 3(B1-B0)        exact, W + 4 bits
+//!   h2 = R R                                                    64 fraction bits, exact
+//!   h3 = (h2 R) >> 32                                           64 fraction bits, truncated
+//!   D1 = a h3 + b h2 + c R    D2 = 6a h3 + 2b h2    D3 = 6a h3  rounded half up to g bits, once
+//!   D0 = B0 << g;  a step: D0 += D1, D1 += D2, D2 += D3;        vertex = D0 rounded to the position format
+//! ```
+//!
+//! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run from the other end
+//! is the same on B3..B0, for which a changes its sign only. So a reversed edge gives the same bits.
+
+use crate::number::{RoundingMode, shift_right};
+use crate::patch::{Level, Point};
+use crate::place::List;
+
+/// Steps of a half-run at most.
+const STEPS_MAX: i64 = 64;
+
+/// How far, in output ulps rounded up, an output may leave the hull of the control points: with every coefficient
+/// off by half an accumulator ulp, n/2 + C(n,2)/2 + C(n,3)/2 of those after n steps, and the output's rounding.
+pub(super) fn error_max(guard: u32) -> i64 {
+    const N: i64 = STEPS_MAX;
+    const ULPS: i64 = (N + N * (N - 1) / 2 + N * (N - 1) * (N - 2) / 6) / 2;
+    (ULPS >> guard) + 2
+}
+
+/// Difference registers, x y z w each, `guard` fraction bits below the position's.
+#[derive(Clone, Copy)]
+struct Registers {
+    d0: Point,
+    d1: Point,
+    d2: Point,
+    d3: Point,
+}
+
+impl Registers {
+    #[inline(always)]
+    fn step(&mut self) {
+        for i in 0..4 {
+            self.d0[i] = self.d0[i].wrapping_add(self.d1[i]);
+            self.d1[i] = self.d1[i].wrapping_add(self.d2[i]);
+            self.d2[i] = self.d2[i].wrapping_add(self.d3[i]);
+        }
+    }
+
+    #[inline(always)]
+    fn output<R: RoundingMode>(&self, guard: u32) -> Point {
+        self.d0.map(|d| shift_right::<R>(d, guard))
+    }
+}
+
+/// Runs a curve from both ends over the list's entries. Returns half-runs and steps.
+#[inline(always)]
+pub(super) fn run<R: RoundingMode>(
+    curve: &[Point; 4],
+    list: &List,
+    guard: u32,
+    mut put: impl FnMut(usize, Point),
+) -> (u64, u64) {
+    let segments = list.segments();
+    put(0, curve[0]);
+    put(segments, curve[3]);
+    if list.level() == Level::MIN {
+        return (0, 0);
+    }
+    if list.level() == Level::TWO {
+        put(1, centre::<R>(curve));
+        return (0, 0);
+    }
+    let [mut near, mut far] = set_up(curve, list.reciprocal(), guard);
+    if list.crosses_centre() {
+        // 1 < level < 2: each end's single step passes the centre and makes the other half's vertex.
+        near.step();
+        far.step();
+        put(2, near.output::<R>(guard));
+        put(1, far.output::<R>(guard));
+        return (2, 2);
+    }
+    let half = list.half_segments();
+    for k in 1..half {
+        near.step();
+        put(k, near.output::<R>(guard));
+    }
+    for k in 1..half {
+        far.step();
+        put(segments - k, far.output::<R>(guard));
+    }
+    put(half, centre::<R>(curve));
+    (2, 2 * (half as u64 - 1))
+}
+
+/// The middle of the curve, its sum paired so that either end gives the same: W + 3 bits.
+fn centre<R: RoundingMode>([a, b, c, d]: &[Point; 4]) -> Point {
+    std::array::from_fn(|i| shift_right::<R>((a[i] + d[i]) + 3 * (b[i] + c[i]), 3))
+}
+
+/// Registers at both ends for a step of `r` (U0.32).
+#[inline(always)]
+fn set_up([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
+    let h2 = r * r; // U0.64: r < 2^32 above level 1
+    let h3 = ((u128::from(h2) * u128::from(r)) >> 32) as u64;
+    let h1 = r << 32;
+    let down = 64 - guard;
+    let half = 1_i128 << (down - 1);
+    let rounded = |sum: i128| ((sum + half) >> down) as i64;
+    let zero = Registers { d0: [0; 4], d1: [0; 4], d2: [0; 4], d3: [0; 4] };
+    let mut ends = [zero; 2];
+    for i in 0..4 {
+        let a = b3[i] - b0[i] + 3 * (b1[i] - b2[i]);
+        let cubic = product(a, h3); // W + 4 + 64 bits, 116 at W = 48
+        for (end, [p, q, s], cubic) in
+            [(0, [b0[i], b1[i], b2[i]], cubic), (1, [b3[i], b2[i], b1[i]], -cubic)]
+        {
+            let square = product(3 * (p + s - 2 * q), h2);
+            let linear = product(3 * (q - p), h1);
+            let registers: &mut Registers = &mut ends[end];
+            registers.d0[i] = p << guard;
+            registers.d1[i] = rounded(cubic + square + linear);
+            registers.d2[i] = rounded(6 * cubic + 2 * square);
+            registers.d3[i] = rounded(6 * cubic);
+        }
+    }
+    ends
+}
+
+#[inline(always)]
+fn product(a: i64, h: u64) -> i128 {
+    i128::from(a) * i128::from(h)
+}

@@ -1,0 +1,330 @@
+//! Patches on their way through the unit: collected until a batch is full, quantised and tessellated on all threads,
+//! handed to the sink in draw order.
+//!
+//! A batch is bounded, so memory does not grow with the trace; meshes are kept only where the sink wants them, a wave
+//! of patches at a time.
+
+use super::frame::FrameState;
+use super::hybrid::Pipeline;
+use crate::config::Config;
+use crate::error::Result;
+use crate::shader::control_point;
+use crate::sink::{PatchMesh, Sink};
+use glam::Mat4;
+use rayon::prelude::*;
+use rtl_model::counter::{Counter, Counters};
+use rtl_model::emit::Screen;
+use rtl_model::level::State;
+use rtl_model::number::{Modal, OverflowMode, RoundingMode, dispatch};
+use rtl_model::patch::{Patch, Triangle, Vertex};
+use rtl_model::port::{self, Quantised};
+use std::ops::Range;
+
+/// Patches of a full batch.
+pub(super) const PATCHES_MAX: usize = 1024;
+
+/// Patches whose meshes are held at once: 64 of level 128 take 70 MB.
+const WAVE: usize = 64;
+
+/// Patches that a thread takes at a time.
+const GRAIN: usize = 16;
+
+/// Points that a thread takes at a time.
+const POINT_GRAIN: usize = 512;
+
+/// A patch whose points stand in the batch.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    /// Number within the frame.
+    pub id: u32,
+    /// Its sixteen points, as indices into the batch.
+    pub indices: [u32; 16],
+    /// Its draw, as an index into the batch.
+    pub draw: u32,
+}
+
+/// What the patches of a draw share.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawState {
+    /// Number of the draw within the frame.
+    pub number: u32,
+    /// Back-facing patches may be removed.
+    pub cull: bool,
+    /// The front is where Su x Sv does not point.
+    pub reversed: bool,
+    /// Tessellation state.
+    pub state: State,
+}
+
+/// Vertices and triangles that came of one draw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Number of the draw within the frame.
+    pub draw: u32,
+    /// Vertices.
+    pub vertices: u64,
+    /// Triangles.
+    pub triangles: u64,
+}
+
+/// Points under one matrix.
+#[derive(Clone, Debug)]
+struct Span {
+    clip_from_object: Mat4,
+    points: Range<usize>,
+    /// How many of the first points were received, and counted, before.
+    repeated: usize,
+}
+
+/// Patches that wait to be tessellated.
+#[derive(Clone, Debug, Default)]
+pub struct Batch {
+    points: Vec<[f32; 4]>,
+    spans: Vec<Span>,
+    patches: Vec<Pending>,
+    draws: Vec<DrawState>,
+}
+
+impl Batch {
+    /// Whether nothing waits.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.patches.is_empty()
+    }
+
+    /// Patches that still fit.
+    #[must_use]
+    pub fn room(&self) -> usize {
+        PATCHES_MAX - self.patches.len()
+    }
+
+    /// Adds a draw; its patches follow.
+    pub fn draw(&mut self, draw: DrawState) {
+        self.draws.push(draw);
+    }
+
+    /// Adds points under a matrix, of which the first `repeated` were received before. Returns the index of the first.
+    pub fn points(&mut self, clip_from_object: Mat4, points: &[[f32; 4]], repeated: usize) -> u32 {
+        let first = self.points.len();
+        self.points.extend_from_slice(points);
+        let points = first..self.points.len();
+        self.spans.push(Span { clip_from_object, points, repeated });
+        first as u32
+    }
+
+    /// Adds a patch of the draw that was added last.
+    pub fn patch(&mut self, id: u32, indices: [u32; 16]) {
+        let draw = self.draws.len() as u32 - 1;
+        self.patches.push(Pending { id, indices, draw });
+    }
+
+    /// Tessellates what waits and empties the batch. Returns vertices and triangles by draw.
+    ///
+    /// # Errors
+    /// The sink's.
+    pub fn flush(
+        &mut self,
+        config: &Config,
+        frame: &FrameState,
+        sink: Option<&mut dyn Sink>,
+        counters: &mut Counters,
+    ) -> Result<Vec<Tally>> {
+        let quantised = self.quantise(config, frame, counters);
+        let work = Work { batch: self, quantised: &quantised, config, frame };
+        let tallies = match sink {
+            None => work.count(counters),
+            Some(sink) => work.stream(sink, counters)?,
+        };
+        self.points.clear();
+        self.spans.clear();
+        self.patches.clear();
+        self.draws.clear();
+        Ok(tallies)
+    }
+
+    /// Control-point shader and port, on all threads.
+    fn quantise(
+        &self,
+        config: &Config,
+        frame: &FrameState,
+        counters: &mut Counters,
+    ) -> Vec<Quantised> {
+        let pieces: Vec<(&Mat4, &[[f32; 4]])> = self
+            .spans
+            .iter()
+            .flat_map(|span| {
+                let points = self.points[span.points.clone()].chunks(POINT_GRAIN);
+                points.map(|points| (&span.clip_from_object, points))
+            })
+            .collect();
+        let piece = |(matrix, points): &(&Mat4, &[[f32; 4]])| {
+            let format = frame.view.position;
+            let work = PortWork { matrix, points, format };
+            dispatch(config.position.rounding, config.position.overflow, work)
+        };
+        let quantised: Vec<Quantised> = pieces.par_iter().flat_map_iter(piece).collect();
+        for span in &self.spans {
+            let received = &quantised[span.points.start + span.repeated..span.points.end];
+            let overflows = received.iter().map(|q| u64::from(q.overflows)).sum();
+            let saturated = received.iter().filter(|q| q.overflows > 0).count() as u64;
+            counters.add(Counter::PortPoints, received.len() as u64);
+            counters.add(Counter::PortOverflows, overflows);
+            counters.add(Counter::PortSaturated, saturated);
+        }
+        quantised
+    }
+}
+
+struct PortWork<'a> {
+    matrix: &'a Mat4,
+    points: &'a [[f32; 4]],
+    format: rtl_model::number::Format,
+}
+
+impl Modal for PortWork<'_> {
+    type Output = Vec<Quantised>;
+
+    fn run<R: RoundingMode, O: OverflowMode>(self) -> Vec<Quantised> {
+        let quantise = |&point| {
+            let clip = control_point::transform(self.matrix, point);
+            port::accept::<R, O>(clip.map(f32::to_bits), self.format)
+        };
+        self.points.iter().map(quantise).collect()
+    }
+}
+
+/// A batch with its quantised points.
+struct Work<'a> {
+    batch: &'a Batch,
+    quantised: &'a [Quantised],
+    config: &'a Config,
+    frame: &'a FrameState,
+}
+
+/// What a thread made of a few patches.
+#[derive(Default)]
+struct Pieces {
+    patches: Vec<Piece>,
+    vertices: Vec<Vertex>,
+    screen: Vec<Screen>,
+    triangles: Vec<Triangle>,
+    tallies: Vec<Tally>,
+    counters: Counters,
+}
+
+/// A patch's ends within [`Pieces`].
+struct Piece {
+    id: u32,
+    vertices: usize,
+    screen: usize,
+    triangles: usize,
+}
+
+impl Work<'_> {
+    /// Counters only.
+    fn count(&self, counters: &mut Counters) -> Vec<Tally> {
+        let all = &self.batch.patches;
+        let parts: Vec<Pieces> = all.par_chunks(GRAIN).map(|part| self.run(part, false)).collect();
+        let mut tallies = Vec::new();
+        for part in parts {
+            part.account(counters, &mut tallies);
+        }
+        tallies
+    }
+
+    /// Counters and meshes.
+    fn stream(&self, sink: &mut dyn Sink, counters: &mut Counters) -> Result<Vec<Tally>> {
+        let mut tallies = Vec::new();
+        for wave in self.batch.patches.chunks(WAVE) {
+            let parts: Vec<Pieces> =
+                wave.par_chunks(GRAIN).map(|part| self.run(part, true)).collect();
+            for part in parts {
+                part.send(sink)?;
+                part.account(counters, &mut tallies);
+            }
+        }
+        Ok(tallies)
+    }
+
+    fn run(&self, patches: &[Pending], keep: bool) -> Pieces {
+        let mut pipeline = Pipeline::new(self.config, self.frame.view);
+        let mut pieces = Pieces::default();
+        for pending in patches {
+            let draw = &self.batch.draws[pending.draw as usize];
+            if pipeline.accept(&self.gather(pending, draw), &draw.state) {
+                pieces.tally(draw.number, &pipeline);
+                if keep {
+                    pieces.keep(pending.id, &pipeline);
+                }
+            }
+        }
+        pieces.counters = pipeline.counters;
+        pieces
+    }
+
+    fn gather(&self, pending: &Pending, draw: &DrawState) -> Patch {
+        let points = pending.indices.map(|i| self.quantised[i as usize]);
+        Patch {
+            id: pending.id,
+            points: points.map(|q| q.point),
+            saturated: points.iter().any(|q| q.overflows > 0),
+            cull: draw.cull,
+            reversed: draw.reversed,
+        }
+    }
+}
+
+impl Pieces {
+    fn tally(&mut self, draw: u32, made: &Pipeline) {
+        let tally = Tally {
+            draw,
+            vertices: made.vertices.len() as u64,
+            triangles: made.triangles.len() as u64,
+        };
+        add(&mut self.tallies, tally);
+    }
+
+    fn keep(&mut self, id: u32, made: &Pipeline) {
+        self.vertices.extend_from_slice(&made.vertices);
+        self.screen.extend_from_slice(&made.screen);
+        self.triangles.extend_from_slice(&made.triangles);
+        self.patches.push(Piece {
+            id,
+            vertices: self.vertices.len(),
+            screen: self.screen.len(),
+            triangles: self.triangles.len(),
+        });
+    }
+
+    fn send(&self, sink: &mut dyn Sink) -> Result<()> {
+        let (mut v, mut s, mut t) = (0, 0, 0);
+        for piece in &self.patches {
+            sink.patch(&PatchMesh {
+                patch: piece.id,
+                vertices: &self.vertices[v..piece.vertices],
+                screen: &self.screen[s..piece.screen],
+                triangles: &self.triangles[t..piece.triangles],
+            })?;
+            (v, s, t) = (piece.vertices, piece.screen, piece.triangles);
+        }
+        Ok(())
+    }
+
+    fn account(self, counters: &mut Counters, tallies: &mut Vec<Tally>) {
+        counters.merge(&self.counters);
+        for tally in self.tallies {
+            add(tallies, tally);
+        }
+    }
+}
+
+/// Adds to the last tally, if it is of the same draw.
+pub(super) fn add(tallies: &mut Vec<Tally>, tally: Tally) {
+    match tallies.last_mut() {
+        Some(last) if last.draw == tally.draw => {
+            last.vertices += tally.vertices;
+            last.triangles += tally.triangles;
+        }
+        _ => tallies.push(tally),
+    }
+}

@@ -1,0 +1,64 @@
+//! The units under study: which blocks, wired how, which defaults.
+//!
+//! Commands come in, triangles stream into a sink, counters come out. `run` carries out the commands, `frame` derives
+//! what is constant over a frame, `batch` collects patches and spreads them over the threads, `hybrid` is the unit's
+//! pipeline for one patch.
+
+mod batch;
+mod frame;
+mod hybrid;
+pub mod pattern;
+mod run;
+
+use crate::config::{Config, Unit};
+use crate::error::Result;
+use crate::report::Report;
+use crate::sink::Sink;
+use crate::trace::command::Command;
+use rtl_model::counter::Block;
+
+pub use batch::Batch;
+pub use frame::FrameState;
+pub use hybrid::Pipeline;
+
+/// Carries out the commands of a trace on the configured unit, in the current rayon pool; any number of threads gives
+/// the same bytes.
+///
+/// # Errors
+/// The first error of the commands, the sink or the configuration; a frame whose far plane is infinite needs a range.
+pub fn simulate(
+    commands: impl Iterator<Item = Result<Command>>,
+    config: &Config,
+    sink: &mut dyn Sink,
+) -> Result<Report> {
+    config.check()?;
+    let mut run = run::Run::new(config, sink);
+    for command in commands {
+        run.command(&command?)?;
+    }
+    run.finish()
+}
+
+/// The blocks of a unit, in the order of the data.
+#[must_use]
+pub fn blocks(unit: Unit) -> &'static [Block] {
+    match unit {
+        Unit::Hybrid => &[
+            Block::Trace,
+            Block::Link,
+            Block::Memory,
+            Block::Transform,
+            Block::Port,
+            Block::Assemble,
+            Block::Clip,
+            Block::Backface,
+            Block::Level,
+            Block::Place,
+            Block::Evaluate,
+            Block::Stitch,
+            Block::Emit,
+            Block::VertexShader,
+        ],
+        Unit::Triangles => &[Block::Trace, Block::Link, Block::Emit, Block::VertexShader],
+    }
+}

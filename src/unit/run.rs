@@ -1,0 +1,272 @@
+//! A run: carries out the commands of a trace, frame by frame.
+
+use super::batch::{self, Batch, DrawState, Tally};
+use super::frame::FrameState;
+use super::{blocks, hybrid};
+use crate::config::{Config, Unit};
+use crate::error::{Error, Result};
+use crate::link::{self, Transfer};
+use crate::report::Report;
+use crate::shader::control_point;
+use crate::sink::{FrameInfo, Sink};
+use crate::trace::command::{Command, Draw, Frame, Points, Primitive};
+use glam::Mat4;
+use rtl_model::counter::{Counter, Counters};
+use rtl_model::level::{Criterion, State};
+use rtl_model::patch::Level;
+use std::collections::HashMap;
+
+/// Bytes that the control-point shader writes: a vec4.
+const SHADED_POINT: u64 = 16;
+
+pub(super) struct Run<'a> {
+    config: &'a Config,
+    sink: &'a mut dyn Sink,
+    points: HashMap<u32, Points>,
+    state: State,
+    frame: Option<FrameState>,
+    /// Patches of the frame so far.
+    patches: u64,
+    /// What each draw of the frame so far sends, apart from its triangles, where the host tessellates.
+    draws: Vec<Transfer>,
+    tallies: Vec<Tally>,
+    batch: Batch,
+    scratch: Vec<[f32; 4]>,
+    /// Of the current frame; before the first frame, what that frame will be charged with.
+    counters: Counters,
+    frames: Vec<Counters>,
+    host_link_bytes: u64,
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(config: &'a Config, sink: &'a mut dyn Sink) -> Self {
+        let flatness = Criterion::Flatness { pixels: 1 << 15 };
+        Self {
+            config,
+            sink,
+            points: HashMap::new(),
+            state: State { criterion: flatness, min: Level::MIN, max: Level::clamped(64 << 16) },
+            frame: None,
+            patches: 0,
+            draws: Vec::new(),
+            tallies: Vec::new(),
+            batch: Batch::default(),
+            scratch: Vec::new(),
+            counters: Counters::default(),
+            frames: Vec::new(),
+            host_link_bytes: 0,
+        }
+    }
+
+    pub(super) fn command(&mut self, command: &Command) -> Result<()> {
+        if let Command::Frame(_) = command {
+            self.end_frame()?;
+        }
+        if self.config.unit == Unit::Hybrid {
+            link::patches(command).count(&self.config.link, &mut self.counters);
+        }
+        match command {
+            Command::Header(_) | Command::End => Ok(()),
+            Command::Frame(frame) => self.begin_frame(command, frame),
+            Command::Points(points) => {
+                link::write_resident(points, self.config, &mut self.counters);
+                self.points.insert(points.id, points.clone());
+                Ok(())
+            }
+            Command::Tessellation(t) => {
+                let level = |fx16: u32| Level::clamped(fx16.into());
+                let (min, max) = (level(t.min_level), level(t.max_level));
+                self.state = State { criterion: t.criterion, min, max };
+                Ok(())
+            }
+            Command::Draw(draw) => self.draw(link::patches(command), draw),
+        }
+    }
+
+    pub(super) fn finish(mut self) -> Result<Report> {
+        self.end_frame()?;
+        Ok(Report {
+            config: self.config.effective(),
+            blocks: blocks(self.config.unit),
+            frames: self.frames,
+            host_link_bytes: self.host_link_bytes,
+        })
+    }
+
+    fn begin_frame(&mut self, command: &Command, frame: &Frame) -> Result<()> {
+        let state = FrameState::new(frame, self.config)?;
+        let number = self.frames.len() as u64;
+        if self.sink.wants(number) {
+            self.sink.frame(&FrameInfo { number, view: state.view, to_world: state.to_world })?;
+        }
+        self.counters.add(Counter::TraceFrames, 1);
+        self.frame = Some(state);
+        self.patches = 0;
+        self.host(link::patches(command));
+        Ok(())
+    }
+
+    fn end_frame(&mut self) -> Result<()> {
+        if self.frame.is_none() {
+            return Ok(());
+        }
+        self.flush()?;
+        self.frame = None;
+        let mut tallies = std::mem::take(&mut self.tallies).into_iter().peekable();
+        for (number, transfer) in std::mem::take(&mut self.draws).into_iter().enumerate() {
+            let tally = tallies.next_if(|t| t.draw as usize == number).unwrap_or_default();
+            self.host(transfer.with_triangles(tally.vertices, tally.triangles, self.config));
+        }
+        self.frames.push(std::mem::take(&mut self.counters));
+        Ok(())
+    }
+
+    /// What crosses the link where the host tessellates: frames and draws, these with their triangles. Points and
+    /// tessellation state stay with the host.
+    fn host(&mut self, transfer: Transfer) {
+        self.host_link_bytes += transfer.total(&self.config.link);
+        if self.config.unit == Unit::Triangles {
+            transfer.count(&self.config.link, &mut self.counters);
+        }
+    }
+
+    fn draw(&mut self, transfer: Transfer, draw: &Draw) -> Result<()> {
+        let frame = self.frame.expect("the reader refuses a draw before any frame");
+        let points = self.points.get(&draw.points).expect("the reader refuses unknown ids").clone();
+        let instances = draw.models.len() as u64;
+        let received = draw.primitive.points();
+        let patches = draw.primitive.patches() * instances;
+        if self.patches + patches > u64::from(u32::MAX) {
+            let count = self.patches + patches;
+            let most = u32::MAX;
+            return Err(Error::Usage(format!(
+                "a frame of {count} patches: expected at most {most}"
+            )));
+        }
+        let counters = &mut self.counters;
+        counters.add(Counter::TraceDraws, 1);
+        counters.add(Counter::TracePatches, patches);
+        let point_bytes = link::point_bytes(&points);
+        counters.add(Counter::TransformInvocations, received * instances);
+        counters.add(Counter::TransformBytesIn, received * instances * point_bytes);
+        counters.add(Counter::TransformBytesOut, received * instances * SHADED_POINT);
+        counters.add(Counter::AssembleReceived, received * instances);
+        counters.add(Counter::AssembleReused, 16 * patches - received * instances);
+        counters.add(Counter::AssemblePatches, patches);
+        counters.add(Counter::AssembleEdgePeak, draw.primitive.edge_entries_peak());
+        let number = self.draws.len() as u32;
+        self.draws.push(transfer);
+        let state = DrawState {
+            number,
+            cull: draw.cull,
+            reversed: draw.reversed,
+            state: hybrid::state(&self.state, self.config),
+        };
+        for model in &draw.models {
+            link::read_resident(&points, received, self.config, &mut self.counters);
+            let model = Mat4::from_cols_array(model);
+            let matrix = control_point::concatenate(&frame.clip_from_world, &model);
+            self.instance(draw, &points, matrix, state)?;
+        }
+        Ok(())
+    }
+
+    /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row.
+    fn instance(
+        &mut self,
+        draw: &Draw,
+        points: &Points,
+        matrix: Mat4,
+        state: DrawState,
+    ) -> Result<()> {
+        let (rows, columns) = match draw.primitive {
+            Primitive::Patches { count } => (1, count),
+            Primitive::Mesh { rows, columns } => (u64::from(rows), u64::from(columns)),
+        };
+        let (mut row, mut column) = (0, 0);
+        while row < rows {
+            if self.batch.room() == 0 {
+                self.flush()?;
+            }
+            let room = self.batch.room() as u64;
+            let block = if column > 0 || columns > room {
+                Block { row, column, rows: 1, columns: room.min(columns - column) }
+            } else {
+                Block { row, column, rows: (room / columns).min(rows - row), columns }
+            };
+            self.batch.draw(state);
+            self.block(draw, points, matrix, block)?;
+            column += block.columns;
+            if column == columns {
+                (row, column) = (row + block.rows, 0);
+            }
+        }
+        Ok(())
+    }
+
+    fn block(&mut self, draw: &Draw, points: &Points, matrix: Mat4, block: Block) -> Result<()> {
+        let Block { row, column, rows, columns } = block;
+        let mesh = match draw.primitive {
+            Primitive::Patches { .. } => None,
+            Primitive::Mesh { columns, .. } => Some(3 * u64::from(columns) + 1),
+        };
+        let local = match mesh {
+            None => Primitive::Patches { count: columns },
+            Some(_) => Primitive::Mesh { rows: rows as u32, columns: columns as u32 },
+        };
+        let Some(stride) = mesh else {
+            points.source.read(
+                draw.first + 16 * column,
+                16 * columns as usize,
+                &mut self.scratch,
+            )?;
+            let base = self.batch.points(matrix, &self.scratch, 0);
+            self.patches(local, base);
+            return Ok(());
+        };
+        let mut base = None;
+        let width = 3 * columns as usize + 1;
+        for line in 3 * row..=3 * (row + rows) {
+            let first = draw.first + line * stride + 3 * column;
+            points.source.read(first, width, &mut self.scratch)?;
+            // A block's first line and column were received with the block below and to the left.
+            let seen_line = line == 3 * row && row > 0;
+            let seen_column = usize::from(column > 0);
+            let repeated = if seen_line { width } else { seen_column };
+            let index = self.batch.points(matrix, &self.scratch, repeated);
+            base.get_or_insert(index);
+        }
+        self.patches(local, base.expect("a block has lines"));
+        Ok(())
+    }
+
+    fn patches(&mut self, primitive: Primitive, base: u32) {
+        for n in 0..primitive.patches() {
+            let indices = primitive.indices(n).map(|i| base + i as u32);
+            self.batch.patch(self.patches as u32, indices);
+            self.patches += 1;
+        }
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        if self.batch.is_empty() {
+            return Ok(());
+        }
+        let frame = self.frame.expect("patches belong to a frame");
+        let wanted = self.sink.wants(self.frames.len() as u64);
+        let sink: Option<&mut dyn Sink> = if wanted { Some(&mut *self.sink) } else { None };
+        for tally in self.batch.flush(self.config, &frame, sink, &mut self.counters)? {
+            batch::add(&mut self.tallies, tally);
+        }
+        Ok(())
+    }
+}
+
+/// Patches of one instance that are drawn together.
+#[derive(Clone, Copy)]
+struct Block {
+    row: u64,
+    column: u64,
+    rows: u64,
+    columns: u64,
+}
