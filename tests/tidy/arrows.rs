@@ -4,11 +4,12 @@
 
 use crate::lexer::{self, Token, begins};
 
-/// A part of `src`, and the parts that it may import besides itself and the leaves.
+/// A part of `src`, and the parts that it may import besides itself and the leaves. Link sees traces:
+/// what crosses it is their commands.
 const PARTS: [(&str, &[&str]); 9] = [
     ("trace", &[]),
     ("shader", &[]),
-    ("link", &[]),
+    ("link", &["trace"]),
     ("output", &[]),
     ("golden", &["trace"]),
     ("gpu", &["trace"]),

@@ -71,12 +71,12 @@ fn forbidden_anywhere(path: &str, tokens: &[Token<'_>]) -> Vec<String> {
 /// The hardware is integers and nothing else: no floating point, no system.
 fn forbidden_in_hardware(path: &str, tokens: &[Token<'_>]) -> Vec<String> {
     let mut problems = Vec::new();
-    for token in tokens {
+    for (at, token) in tokens.iter().enumerate() {
         let text = token.text;
         let number = text.starts_with(|c: char| c.is_ascii_digit());
         // Hexadecimal digits include f: 0x1f32 is an integer.
         let float = match number && !text.starts_with("0x") {
-            true => text.contains('.') || text.ends_with("f32") || text.ends_with("f64"),
+            true => fraction(at, tokens) || text.ends_with("f32") || text.ends_with("f64"),
             false => text == "f32" || text == "f64",
         };
         if float {
@@ -90,6 +90,12 @@ fn forbidden_in_hardware(path: &str, tokens: &[Token<'_>]) -> Vec<String> {
         }
     }
     problems
+}
+
+/// `1.5`, but not the fields of `x.1.0`.
+fn fraction(at: usize, tokens: &[Token<'_>]) -> bool {
+    let field = at > 0 && tokens[at - 1].text == ".";
+    tokens[at].text.contains('.') && !field
 }
 
 /// Absolute paths of somebody's machine in any text.
