@@ -14,7 +14,7 @@
 //! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run from the other end
 //! is the same on B3..B0, for which a changes its sign only. So a reversed edge gives the same bits.
 
-use crate::number::{RoundingMode, shift_right};
+use crate::number::{Rounding, RoundingMode, shift_right};
 use crate::patch::{Level, Point};
 use crate::place::List;
 
@@ -29,13 +29,17 @@ pub(super) fn error_max(guard: u32) -> i64 {
     (ULPS >> guard) + 2
 }
 
-/// Difference registers, x y z w each, `guard` fraction bits below the position's.
+/// What D0 is kept above its value, so that it is never negative and a logical shift rounds it: vectors of 64-bit
+/// integers have no arithmetic one. Even after the shift, so parity is kept.
+const OFFSET: u64 = 1 << 61;
+
+/// Difference registers, x y z w each, `guard` fraction bits below the position's; D0 with its offset.
 #[derive(Clone, Copy)]
 struct Registers {
-    d0: Point,
-    d1: Point,
-    d2: Point,
-    d3: Point,
+    d0: [u64; 4],
+    d1: [u64; 4],
+    d2: [u64; 4],
+    d3: [u64; 4],
 }
 
 impl Registers {
@@ -48,9 +52,19 @@ impl Registers {
         }
     }
 
+    /// D0 rounded to the position format.
     #[inline(always)]
     fn output<R: RoundingMode>(&self, guard: u32) -> Point {
-        self.d0.map(|d| shift_right::<R>(d, guard))
+        let half = (1 << guard) >> 1;
+        self.d0.map(|d| {
+            let bias = match R::MODE {
+                Rounding::Floor => 0,
+                Rounding::NearestUp => half,
+                Rounding::NearestEven => half - 1 + (d >> guard & 1),
+                Rounding::NearestAway => half - 1 + (d >> 61 & 1), // a tie below 0 goes down
+            };
+            ((d + bias) >> guard).wrapping_sub(OFFSET >> guard) as i64
+        })
     }
 }
 
@@ -105,11 +119,7 @@ fn set_up([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
     let h2 = r * r; // U0.64: r < 2^32 above level 1
     let h3 = ((u128::from(h2) * u128::from(r)) >> 32) as u64;
     let h1 = r << 32;
-    let down = 64 - guard;
-    let half = 1_i128 << (down - 1);
-    let rounded = |sum: i128| ((sum + half) >> down) as i64;
-    let zero = Registers { d0: [0; 4], d1: [0; 4], d2: [0; 4], d3: [0; 4] };
-    let mut ends = [zero; 2];
+    let mut ends = [Registers { d0: [0; 4], d1: [0; 4], d2: [0; 4], d3: [0; 4] }; 2];
     for i in 0..4 {
         let a = b3[i] - b0[i] + 3 * (b1[i] - b2[i]);
         let cubic = product(a, h3); // W + 4 + 64 bits, 116 at W = 48
@@ -119,10 +129,10 @@ fn set_up([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
             let square = product(3 * (p + s - 2 * q), h2);
             let linear = product(3 * (q - p), h1);
             let registers: &mut Registers = &mut ends[end];
-            registers.d0[i] = p << guard;
-            registers.d1[i] = rounded(cubic + square + linear);
-            registers.d2[i] = rounded(6 * cubic + 2 * square);
-            registers.d3[i] = rounded(6 * cubic);
+            registers.d0[i] = ((p << guard) as u64).wrapping_add(OFFSET);
+            registers.d1[i] = rounded(cubic + square + linear, guard);
+            registers.d2[i] = rounded(6 * cubic + 2 * square, guard);
+            registers.d3[i] = rounded(6 * cubic, guard);
         }
     }
     ends
@@ -131,4 +141,12 @@ fn set_up([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
 #[inline(always)]
 fn product(a: i64, h: u64) -> i128 {
     i128::from(a) * i128::from(h)
+}
+
+/// From 64 fraction bits to `guard`, half up; the low 64 bits of the register.
+#[inline(always)]
+fn rounded(sum: i128, guard: u32) -> u64 {
+    let sum = sum + (1 << (63 - guard));
+    let (high, low) = ((sum >> 64) as u64, sum as u64);
+    high << guard | low >> (64 - guard)
 }

@@ -69,11 +69,45 @@ pub fn divide<R: RoundingMode>(numerator: i128, denominator: i128) -> i128 {
 /// When the denominator is not positive.
 #[must_use]
 #[inline]
-pub fn divide_narrow<R: RoundingMode>(numerator: i64, denominator: i64) -> i64 {
+fn divide_narrow<R: RoundingMode>(numerator: i64, denominator: i64) -> i64 {
     assert!(denominator > 0, "a denominator is positive");
     let (quotient, rest) = (numerator.div_euclid(denominator), numerator.rem_euclid(denominator));
     let up = rounds_up::<R>((2 * rest).cmp(&denominator), quotient & 1 != 0, numerator < 0);
     quotient + i64::from(up)
+}
+
+/// A divisor of several numerators, whose reciprocal is formed once: one division, then a multiplication each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Divisor {
+    value: u64,
+    /// floor(2^63 / value)
+    reciprocal: u64,
+}
+
+impl Divisor {
+    /// The divisor `value`, below 2^62.
+    ///
+    /// # Panics
+    /// When the value is 0.
+    #[must_use]
+    #[inline]
+    pub fn new(value: u64) -> Self {
+        Self { value, reciprocal: (1 << 63) / value }
+    }
+
+    /// `round(numerator / value - zero)`, exact, for a numerator below 2^62: `zero` is where the number line has its
+    /// origin, so that quotients below 0 need no sign.
+    #[must_use]
+    #[inline]
+    pub fn divide<R: RoundingMode>(self, numerator: u64, zero: i64) -> i64 {
+        // The truncated reciprocal takes less than numerator / 2^63 < 1/2 off: the quotient, or one less.
+        let estimate = ((u128::from(numerator) * u128::from(self.reciprocal)) >> 63) as u64;
+        let rest = numerator - estimate * self.value;
+        let short = u64::from(rest >= self.value);
+        let (quotient, rest) = ((estimate + short) as i64 - zero, rest - short * self.value);
+        let up = rounds_up::<R>((2 * rest).cmp(&self.value), quotient & 1 != 0, quotient < 0);
+        quotient + i64::from(up)
+    }
 }
 
 /// Whether a floored quotient goes one up; `past_half` compares what was cut off with a half.
@@ -189,6 +223,12 @@ pub(super) mod tests {
                     same(wide, (a * b, one));
                     if b > 0 {
                         same(divide::<R>(i128::from(a * one), b.into()), (a * one, b));
+                        let from_zero = (a * one + 128 * one * b) as u64; // a >= -128
+                        let zero = 128 * one;
+                        same(
+                            Divisor::new(b as u64).divide::<R>(from_zero, zero).into(),
+                            (a * one, b),
+                        );
                         // The same quotient through the 128-bit path.
                         let (n, d) = (i128::from(a * one) << 64, i128::from(b) << 64);
                         same(divide::<R>(n, d), (a * one, b));
@@ -237,6 +277,13 @@ pub(super) mod tests {
             same_as_i128::<super::super::NearestUp>(value, n);
             same_as_i128::<super::super::NearestEven>(value, n);
             same_as_i128::<super::super::NearestAway>(value, n);
+        }
+
+        #[test]
+        fn a_divisor_divides_as_a_division_does(n in 0u64..1 << 62, bits in 1u32..62, d: u64) {
+            let d = (d >> (64 - bits)).max(1);
+            let exact = divide::<super::super::NearestEven>(n.into(), d.into());
+            prop_assert_eq!(i128::from(Divisor::new(d).divide::<super::super::NearestEven>(n, 0)), exact);
         }
 
         #[test]
