@@ -121,7 +121,9 @@ impl<'a> Value<'a> {
             let message = format!("not JSON: the line ends inside {inside}");
             return Fault { offset: self.offset + self.text.len(), message, has_path: false };
         }
-        let mut at = error.column().saturating_sub(1).min(self.text.len());
+        // It counts the bytes before a control character, but up to any other byte that is wrong.
+        let counted = usize::from(!reason.starts_with("control character"));
+        let mut at = error.column().saturating_sub(counted).min(self.text.len());
         while !self.text.is_char_boundary(at) {
             at -= 1;
         }
@@ -134,6 +136,9 @@ impl<'a> Value<'a> {
         let message = match reason {
             "trailing characters" => {
                 format!("found `{found}` after the command, expected the end of the line")
+            }
+            "expected value" if rest.starts_with([']', '}', ',']) => {
+                format!("not JSON: found `{}`, expected a value", &rest[..1])
             }
             "expected value" => {
                 format!("not JSON: found `{found}`, expected a value (JSON has no NaN or infinity)")

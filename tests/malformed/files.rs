@@ -73,7 +73,7 @@ fn sizes_and_fields() {
         (
             "count of 0",
             r#""file":"p.f32","layout":"xyz","count":0"#,
-            58,
+            57,
             &["points.count: found 0"],
         ),
         (

@@ -82,7 +82,7 @@ const LINES: &[(&str, &str, &[&str])] = &[
     (
         "trailing comma in a list",
         r#"{"frame":{"viewport":[1,2,☞]}}"#,
-        &["not JSON: found `]` after a comma"],
+        &["not JSON: found `]`, expected a value"],
     ),
     ("single quotes", r#"{☞'draw':{}}"#, &["not JSON: key must be a string"]),
     ("NaN", r#"{"points":{"id":1,"xyz":[[☞NaN,0,0]]}}"#, &["`NaN`", "JSON has no NaN"]),
