@@ -1,8 +1,9 @@
 //! Fast: long `points` lines, nearly all the bytes of a large trace, read in one pass.
 //!
-//! [`super::parse`] takes a line apart by its raw values, which costs three passes over its numbers and tells exactly what is
-//! wrong with it. Here `serde_json` goes straight from digits to coordinates. What is accepted here means the same
-//! there; what is refused here, for whatever reason, is left to the other to accept or explain.
+//! [`super::parse`] takes a line apart by its raw values, which costs three passes over its numbers
+//! and tells exactly what is wrong with it. Here `serde_json` goes straight from digits to
+//! coordinates. What is accepted here means the same there; what is refused here, for whatever
+//! reason, is left to the other to accept or explain.
 
 use super::command::{Command, Points};
 use super::points::PointSource;

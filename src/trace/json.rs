@@ -1,9 +1,10 @@
-//! Located JSON: the text of a line in, values that know their byte offset out, and faults that name their place.
+//! Located JSON: the text of a line in, values that know their byte offset out, and faults that
+//! name their place.
 //!
 //! `serde_json` does all the parsing. A value is taken as its raw text (`RawValue`), which borrows from the line, so
-//! that its offset is known without a parser of our own. Only what is looked at is parsed further. A fault carries
-//! an offset and no path: the path is found from the offset ([`path_at`]) when a fault is shown, so that reading
-//! a good trace never builds one.
+//! that its offset is known without a parser of our own. Only what is looked at is parsed further.
+//! A fault carries an offset and no path: the path is found from the offset ([`path_at`]) when a
+//! fault is shown, so that reading a good trace never builds one.
 
 use serde::Deserializer as _;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
@@ -220,7 +221,8 @@ fn cut(text: &str, chars_max: usize) -> Cow<'_, str> {
     }
 }
 
-/// The path of the field at a byte of the line, such as `points.xyz[3][1]`; empty for the line itself.
+/// The path of the field at a byte of the line, such as `points.xyz[3][1]`; empty for the line
+/// itself.
 pub(crate) fn path_at(line: &str, offset: usize) -> String {
     const NAME_CHARS_MAX: usize = 40;
     let mut path = String::new();

@@ -1,5 +1,5 @@
-//! What must hold for any bytes at all: shared by the fuzz targets and by `tests/corpus.rs`, which runs the corpus in
-//! plain `cargo test`.
+//! What must hold for any bytes at all: shared by the fuzz targets and by `tests/corpus.rs`, which
+//! runs the corpus in plain `cargo test`.
 
 use tessim::error::Result;
 use tessim::trace::command::Command;
@@ -20,7 +20,8 @@ fn written(commands: &[Command]) -> Vec<u8> {
     writer.into_inner()
 }
 
-/// A text trace is refused with its place, or it means the same when it is written and read again. Says which.
+/// A text trace is refused with its place, or it means the same when it is written and read again.
+/// Says which.
 pub(crate) fn read_text(bytes: &[u8]) -> bool {
     match commands(bytes) {
         Ok(all) => {

@@ -1,4 +1,5 @@
-//! Traces whose points are in files: names that lead elsewhere, files that are missing, short or wrong.
+//! Traces whose points are in files: names that lead elsewhere, files that are missing, short or
+//! wrong.
 
 use super::{Case, check};
 use std::path::Path;
