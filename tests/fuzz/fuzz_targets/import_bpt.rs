@@ -1,0 +1,10 @@
+//! `cargo +nightly fuzz run import_bpt`, at the root of the repository, with `--fuzz-dir tests/fuzz`.
+#![no_main]
+
+#[allow(dead_code)]
+#[path = "../checks.rs"]
+mod checks;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    checks::import_bpt(bytes);
+});
