@@ -84,7 +84,7 @@ pub(crate) const LINES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "singular projection",
-        r#"{"frame":{"viewport":[1,1],"view":ONE,"projection":☞[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]}}"#,
+        r#"{"frame":{"projection":☞[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,9],"viewport":[1,1],"view":ONE}}"#,
         &["frame.projection", "singular"],
     ),
     (
