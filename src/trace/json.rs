@@ -1,8 +1,9 @@
 //! Located JSON: the text of a line in, values that know their byte offset out, and faults that
 //! name their place.
 //!
-//! `serde_json` does all the parsing. A value is taken as its raw text (`RawValue`), which borrows from the line, so
-//! that its offset is known without a parser of our own. Only what is looked at is parsed further.
+//! `serde_json` does all the parsing. A value is taken as its raw text (`RawValue`), which borrows
+//! from the line, so that its offset is known without a parser of our own. Only what is looked at
+//! is parsed further.
 //! A fault carries an offset and no path: the path is found from the offset ([`path_at`]) when a
 //! fault is shown, so that reading a good trace never builds one.
 

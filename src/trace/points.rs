@@ -227,7 +227,8 @@ impl PointFile {
         let components = self.layout.components() as usize;
         let mut byte = first * 4 * components as u64;
         let mut open = self.open.lock().unwrap_or_else(|poisoned| {
-            poisoned.into_inner() // only a panic elsewhere can do that; the position is set anew below
+            // Only a panic elsewhere can do that; the position is set anew below.
+            poisoned.into_inner()
         });
         open.seek(byte).map_err(|e| self.unreadable(e))?;
         out.reserve(count);

@@ -170,7 +170,8 @@ impl<R: BufRead> Reader<R> {
     fn too_long(&self) -> Error {
         let message = format!(
             "found a line of more than {} MiB, expected less; put large points into a file of \
-             their own: {{\"points\":{{\"id\":0,\"file\":\"NAME\",\"layout\":\"xyz\",\"count\":N}}}}",
+             their own: {{\"points\":{{\"id\":0,\"file\":\"NAME\",\"layout\":\"xyz\",\
+             \"count\":N}}}}",
             LINE_BYTES_MAX >> 20
         );
         self.error(0, message)

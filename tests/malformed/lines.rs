@@ -84,7 +84,7 @@ pub(crate) const LINES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "singular projection",
-        r#"{"frame":{"viewport":[1,1],"view":ONE,"projection":☞[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]}}"#,
+        r#"{"frame":{"projection":☞[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,9],"viewport":[1,1],"view":ONE}}"#,
         &["frame.projection", "singular"],
     ),
     (
@@ -103,8 +103,8 @@ pub(crate) const LINES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "range out of bounds",
-        r#"{"frame":{"viewport":[1,1],"view":ONE,"projection":ONE,"range":{"object":☞36893488147419103232}}}"#,
-        &["range.object: found 36893488147419103232", "2^64"],
+        r#"{"frame":{"viewport":[1,1],"view":ONE,"projection":ONE,"range":{"object":☞4e19}}}"#,
+        &["range.object: found 4e19", "2^64"],
     ),
     (
         "unknown range",

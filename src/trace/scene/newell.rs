@@ -3,10 +3,10 @@
 //!
 //! The numbers of the 32-patch teapot are those of three.js,
 //! `examples/jsm/geometries/TeapotGeometry.js` (MIT, the three.js authors); those of the other
-//! three are from freeglut 3.4.0, `src/fg_teapot_data.h`, the comment block
-//! `teasetorig.gz` (X11 licence, Pawel W. Olszta), by way of P. Schneider, 1990. They are kept as they are, gaps and all: the
-//! 28-patch teapot and the teaspoon have seams that are up to 8e-4 apart, and handle, spout and lid
-//! meet the body of no pot. The files are plain BPT ([`super::super::import`]).
+//! three are from freeglut 3.4.0, `src/fg_teapot_data.h`, the comment block `teasetorig.gz` (X11
+//! licence, Pawel W. Olszta), by way of P. Schneider, 1990. They are kept as they are, gaps and
+//! all: the 28-patch teapot and the teaspoon have seams that are up to 8e-4 apart, and handle,
+//! spout and lid meet the body of no pot. The files are plain BPT ([`super::super::import`]).
 
 use super::super::import::read_bpt;
 

@@ -1,4 +1,4 @@
-//! `cargo +nightly fuzz run import_bpt`, at the root of the repository, with `--fuzz-dir tests/fuzz`.
+//! `cargo +nightly fuzz run --fuzz-dir tests/fuzz import_bpt`, at the root of the repository.
 #![no_main]
 
 #[allow(dead_code)]
