@@ -53,7 +53,7 @@ fn a_long_trace_runs_in_the_memory_of_a_short_one() {
     let folder = tempfile::tempdir().expect("a folder");
     let config = Config::default();
     let long = common::scale(400, 1000) as u32;
-    let mut run_with_mesh = |side| {
+    let run_with_mesh = |side| {
         let mut mesh =
             MeshFile::create(MeshForm::Ply, folder.path(), 0, "grid", &config).expect("a mesh");
         run(side, &mut mesh);

@@ -26,7 +26,7 @@ struct Shared {
 /// Vertices along an edge in the direction of its growing parameter: position and parameter.
 fn row(mesh: &Mesh, edge: usize) -> Vec<(Point, u32)> {
     let on = |v: &&rtl_model::patch::Vertex| [v.v == 0, v.u == ONE, v.v == ONE, v.u == 0][edge];
-    let along = |v: &rtl_model::patch::Vertex| (v.position, if edge % 2 == 0 { v.u } else { v.v });
+    let along = |v: &rtl_model::patch::Vertex| (v.position, if edge & 1 == 0 { v.u } else { v.v });
     let mut row: Vec<_> = mesh.vertices.iter().filter(on).map(along).collect();
     match edge {
         2 => row.reverse(),

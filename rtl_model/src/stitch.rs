@@ -158,7 +158,7 @@ impl<'a> Stitcher<'a> {
 
     /// Interior vertices along a side.
     fn along(&self, side: usize) -> usize {
-        if side % 2 == 0 { self.columns } else { self.rows }
+        if side & 1 == 0 { self.columns } else { self.rows }
     }
 
     /// The boundary vertices of a side, from one of its ends.
@@ -178,7 +178,7 @@ impl<'a> Stitcher<'a> {
         let from = [(0, 0), (columns, 0), (0, rows), (0, 0)][side];
         let to = [(columns, 0), (columns, rows), (columns, rows), (0, rows)][side];
         let (column, row) = if end == 0 { from } else { to };
-        let step = if side % 2 == 0 { 1 } else { self.columns as i32 };
+        let step = if side & 1 == 0 { 1 } else { self.columns as i32 };
         Row {
             first: self.interior(column, row).into(),
             step: if end == 0 { step } else { -step },
