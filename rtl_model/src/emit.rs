@@ -77,28 +77,25 @@ fn project<R: RoundingMode>(vertex: &Vertex, view: &View, subpixel_bits: u32) ->
     if w <= 0 {
         return Screen::default();
     }
-    // (c + w) size 2^bits over 2 w, W + 14 + bits over W bits; the band's lower end is the quotient's zero.
-    let band = 1_i64 << (15 + subpixel_bits);
+    // (c + w) size 2^bits over 2 w, W + 14 + bits over W bits
+    let band = 1_u64 << (15 + subpixel_bits);
     let [width, height] = view.viewport.map(|size| i64::from(size) << subpixel_bits);
-    let pixels = if view.position.width + 16 + subpixel_bits <= 62 {
+    let [px, py] = if view.position.width + 16 + subpixel_bits <= 62 {
         let divisor = Divisor::new(2 * w as u64);
-        let pixel = |c: i64, size: i64| {
-            let numerator = u64::try_from(c * size + 2 * w * band).ok()?;
-            Some(divisor.divide::<R>(numerator, band))
-        };
+        let pixel = |c: i64, size: i64| divisor.divide::<R>(c * size, band);
         [pixel(x + w, width), pixel(w - y, height)]
     } else {
         let pixel = |c: i64, size: i64| {
-            let numerator = i128::from(c) * i128::from(size);
-            i64::try_from(divide::<R>(numerator, i128::from(2 * w))).ok()
+            let quotient = divide::<R>(i128::from(c) * i128::from(size), i128::from(2 * w));
+            i64::try_from(quotient).unwrap_or(i64::MAX)
         };
         [pixel(x + w, width), pixel(w - y, height)]
     };
-    match pixels {
-        [Some(x), Some(y)] if x.max(y) < band && x.min(y) >= -band => {
-            Screen { x: x as i32, y: y as i32, divided: true }
-        }
-        _ => Screen::default(),
+    let inside = |p: i64| p.wrapping_add(band as i64) as u64 <= 2 * band - 1;
+    if inside(px) && inside(py) {
+        Screen { x: px as i32, y: py as i32, divided: true }
+    } else {
+        Screen::default()
     }
 }
 

@@ -215,7 +215,7 @@ impl Evaluate {
         cost.steps += steps;
         if self.checked {
             for c in self.curve.iter_mut().flatten() {
-                let (fitted, overflowed) = position.fit::<O>((*c).into());
+                let (fitted, overflowed) = position.fit::<O>(*c);
                 *c = fitted;
                 cost.overflows += u64::from(overflowed);
             }

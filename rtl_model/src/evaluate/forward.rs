@@ -85,7 +85,12 @@ pub(super) fn run<R: RoundingMode>(
         out[1] = centre::<R>(curve);
         return (0, 0);
     }
-    let [mut near, mut far] = set_up(curve, list.reciprocal(), guard);
+    let r = list.reciprocal();
+    let [mut near, mut far] = if r < 1 << 31 {
+        set_up::<Signed>(curve, r, guard)
+    } else {
+        set_up::<Unsigned>(curve, r, guard)
+    };
     if list.crosses_centre() {
         // 1 < level < 2: each end's single step passes the centre and makes the other half's vertex.
         near.step();
@@ -115,32 +120,53 @@ fn centre<R: RoundingMode>([a, b, c, d]: &[Point; 4]) -> Point {
 
 /// Registers at both ends for a step of `r` (U0.32).
 #[inline(always)]
-fn set_up([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
+fn set_up<P: Product>([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
     let h2 = r * r; // U0.64: r < 2^32 above level 1
     let h3 = ((u128::from(h2) * u128::from(r)) >> 32) as u64;
     let h1 = r << 32;
     let mut ends = [Registers { d0: [0; 4], d1: [0; 4], d2: [0; 4], d3: [0; 4] }; 2];
     for i in 0..4 {
         let a = b3[i] - b0[i] + 3 * (b1[i] - b2[i]);
-        let cubic = product(a, h3); // W + 4 + 64 bits, 116 at W = 48
-        for (end, [p, q, s], cubic) in
-            [(0, [b0[i], b1[i], b2[i]], cubic), (1, [b3[i], b2[i], b1[i]], -cubic)]
-        {
-            let square = product(3 * (p + s - 2 * q), h2);
-            let linear = product(3 * (q - p), h1);
-            let registers: &mut Registers = &mut ends[end];
-            registers.d0[i] = ((p << guard) as u64).wrapping_add(OFFSET);
-            registers.d1[i] = rounded(cubic + square + linear, guard);
-            registers.d2[i] = rounded(6 * cubic + 2 * square, guard);
-            registers.d3[i] = rounded(6 * cubic, guard);
+        // W + 4 and W + 7 bits, times 64: 119 at W = 48
+        let (cubic, six_cubic) = (P::of(a, h3), P::of(6 * a, h3));
+        let [near, far] = &mut ends;
+        for (end, [p, q, s], cubic, six_cubic) in [
+            (near, [b0[i], b1[i], b2[i]], cubic, six_cubic),
+            (far, [b3[i], b2[i], b1[i]], -cubic, -six_cubic),
+        ] {
+            let b = 3 * (p + s - 2 * q);
+            end.d0[i] = ((p << guard) as u64).wrapping_add(OFFSET);
+            end.d1[i] = rounded(cubic + P::of(b, h2) + P::of(3 * (q - p), h1), guard);
+            end.d2[i] = rounded(six_cubic + P::of(2 * b, h2), guard);
+            end.d3[i] = rounded(six_cubic, guard);
         }
     }
     ends
 }
 
-#[inline(always)]
-fn product(a: i64, h: u64) -> i128 {
-    i128::from(a) * i128::from(h)
+/// The exact product of a coefficient and a power of the step with 64 fraction bits.
+trait Product {
+    fn of(a: i64, h: u64) -> i128;
+}
+
+/// For steps below 1/2, whose powers are below 2^63: one signed multiplication.
+struct Signed;
+
+/// For any step.
+struct Unsigned;
+
+impl Product for Signed {
+    #[inline(always)]
+    fn of(a: i64, h: u64) -> i128 {
+        i128::from(a) * i128::from(h as i64)
+    }
+}
+
+impl Product for Unsigned {
+    #[inline(always)]
+    fn of(a: i64, h: u64) -> i128 {
+        i128::from(a) * i128::from(h)
+    }
 }
 
 /// From 64 fraction bits to `guard`, half up; the low 64 bits of the register.
