@@ -14,6 +14,7 @@
 //! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run from the other end
 //! is the same on B3..B0, for which a changes its sign only. So a reversed edge gives the same bits.
 
+use super::Slot;
 use crate::number::{Rounding, RoundingMode, shift_right};
 use crate::patch::{Level, Point};
 use crate::place::List;
@@ -68,21 +69,18 @@ impl Registers {
     }
 }
 
-/// Runs a curve from both ends; `out` has an entry for each of the list's. Returns half-runs and steps.
-pub(super) fn run<R: RoundingMode>(
+/// Runs a curve from both ends; `out` has a place for each inner entry of the list. Returns half-runs and steps.
+pub(super) fn run<R: RoundingMode, S: Slot>(
     curve: &[Point; 4],
     list: &List,
     guard: u32,
-    out: &mut [Point],
+    out: &mut [S],
 ) -> (u64, u64) {
-    let segments = list.segments();
-    out[0] = curve[0];
-    out[segments] = curve[3];
     if list.level() == Level::MIN {
         return (0, 0);
     }
     if list.level() == Level::TWO {
-        out[1] = centre::<R>(curve);
+        out[0].put(centre::<R>(curve));
         return (0, 0);
     }
     let r = list.reciprocal();
@@ -95,22 +93,22 @@ pub(super) fn run<R: RoundingMode>(
         // 1 < level < 2: each end's single step passes the centre and makes the other half's vertex.
         near.step();
         far.step();
-        out[2] = near.output::<R>(guard);
-        out[1] = far.output::<R>(guard);
+        out[1].put(near.output::<R>(guard));
+        out[0].put(far.output::<R>(guard));
         return (2, 2);
     }
-    let half = list.half_segments();
-    let (first, second) = out.split_at_mut(half);
-    for point in &mut first[1..] {
+    let steps = list.half_segments() - 1;
+    let (first, second) = out.split_at_mut(steps);
+    for slot in first {
         near.step();
-        *point = near.output::<R>(guard);
+        slot.put(near.output::<R>(guard));
     }
-    second[0] = centre::<R>(curve);
-    for point in second[1..half].iter_mut().rev() {
+    second[0].put(centre::<R>(curve));
+    for slot in second[1..].iter_mut().rev() {
         far.step();
-        *point = far.output::<R>(guard);
+        slot.put(far.output::<R>(guard));
     }
-    (2, 2 * (half as u64 - 1))
+    (2, 2 * steps as u64)
 }
 
 /// The middle of the curve, its sum paired so that either end gives the same: W + 3 bits.
@@ -173,6 +171,5 @@ impl Product for Unsigned {
 #[inline(always)]
 fn rounded(sum: i128, guard: u32) -> u64 {
     let sum = sum + (1 << (63 - guard));
-    let (high, low) = ((sum >> 64) as u64, sum as u64);
-    high << guard | low >> (64 - guard)
+    (((sum as u128) << (guard & 63)) >> 64) as u64 // guard < 64, said so that one funnel shift does it
 }
