@@ -20,6 +20,8 @@ pub struct FrameInfo {
 pub struct PatchMesh<'a> {
     /// Number of the patch within its frame, before culling, in draw order.
     pub patch: u32,
+    /// `"front":"reversed"`: the side where `Su x Sv` points is the back.
+    pub reversed: bool,
     /// Vertices: boundary counter-clockwise from (0, 0), then the interior row by row.
     pub vertices: &'a [Vertex],
     /// Their screen positions, one each; empty when `emit.divide` is off.

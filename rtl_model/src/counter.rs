@@ -209,6 +209,17 @@ counters! {
 /// How many counters there are.
 pub const COUNT: usize = DECLARATIONS.len();
 
+/// Which counters aggregate by maximum: a table, for every addition asks it.
+const PEAKS: [bool; COUNT] = {
+    let mut peaks = [false; COUNT];
+    let mut i = 0;
+    while i < COUNT {
+        peaks[i] = matches!(DECLARATIONS[i].name.as_bytes(), [.., b'.', b'p', b'e', b'a', b'k']);
+        i += 1;
+    }
+    peaks
+};
+
 impl Counter {
     /// Its declaration.
     #[must_use]
@@ -218,8 +229,8 @@ impl Counter {
 
     /// Whether it aggregates by maximum.
     #[must_use]
-    pub fn is_peak(self) -> bool {
-        self.declaration().name.ends_with(".peak")
+    pub const fn is_peak(self) -> bool {
+        PEAKS[self as usize]
     }
 }
 

@@ -4,8 +4,10 @@
 //! the upper edge down, y_screen = (w - y) height / (2 w), both Q16.`subpixel_bits`. A vertex with w <= 0, or outside
 //! the band of +-32768 pixels that the format holds, stays homogeneous: the clipper must see it first.
 
-use crate::number::{Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide};
-use crate::patch::{Triangle, Vertex, View};
+use crate::number::{
+    Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide, divide_narrow,
+};
+use crate::patch::{Point, Triangle, Vertex, View};
 
 /// A vertex on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,9 +39,10 @@ pub fn accept(vertices: &[Vertex], view: &View, settings: Settings, out: &mut Ve
 #[must_use]
 pub fn degenerate(vertices: &[Vertex], triangles: &[Triangle]) -> u64 {
     let at = |k: u16| &vertices[usize::from(k)].position;
+    let equal = |a: &Point, b: &Point| a[0] == b[0] && a == b;
     let is_degenerate = |t: &&Triangle| {
         let (a, b, c) = (at(t[0]), at(t[1]), at(t[2]));
-        a == b || b == c || c == a
+        equal(a, b) || equal(b, c) || equal(c, a)
     };
     triangles.iter().filter(is_degenerate).count() as u64
 }
@@ -74,12 +77,18 @@ fn project<R: RoundingMode>(vertex: &Vertex, view: &View, subpixel_bits: u32) ->
     }
     // (c + w) size 2^bits over 2 w: W + 1 + 14 + 12 bits over W + 1
     let pixel = |c: i64, size: u32| {
-        let scaled = i128::from(c) * i128::from(u64::from(size) << subpixel_bits);
-        divide::<R>(scaled, i128::from(2 * w))
+        let scale = i64::from(size) << subpixel_bits;
+        match c.checked_mul(scale) {
+            Some(scaled) => divide_narrow::<R>(scaled, 2 * w),
+            None => {
+                let wide = i128::from(c) * i128::from(scale);
+                divide::<R>(wide, i128::from(2 * w)).try_into().unwrap_or(i64::MAX)
+            }
+        }
     };
     let (px, py) = (pixel(x + w, view.viewport[0]), pixel(w - y, view.viewport[1]));
-    let band = 1_i128 << (15 + subpixel_bits);
-    let inside = |p: i128| (-band..band).contains(&p);
+    let band = 1_i64 << (15 + subpixel_bits);
+    let inside = |p: i64| (-band..band).contains(&p);
     if inside(px) && inside(py) {
         Screen { x: px as i32, y: py as i32, divided: true }
     } else {

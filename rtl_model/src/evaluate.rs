@@ -77,10 +77,12 @@ pub struct Cost {
     pub overflows: u64,
 }
 
-/// The block and its row store.
+/// The block and its stores.
 #[derive(Clone, Debug)]
 pub struct Evaluate {
     settings: Settings,
+    /// Points of the curve that runs.
+    curve: Vec<Point>,
     /// Control points of the interior rows.
     rows: Vec<[Point; 4]>,
 }
@@ -94,7 +96,7 @@ impl Evaluate {
     pub fn new(settings: Settings) -> Self {
         let bits = settings.position.width + settings.guard + 3;
         assert!(bits <= 63, "an accumulator of {bits} bits does not fit 63");
-        Self { settings, rows: Vec::new() }
+        Self { settings, curve: Vec::new(), rows: Vec::new() }
     }
 
     /// Evaluates the vertices of a patch into `out`, in the order of the placement's numbering.
@@ -116,127 +118,102 @@ struct Work<'a> {
 impl Modal for Work<'_> {
     type Output = Cost;
 
-    fn run<R: RoundingMode, O: OverflowMode>(self) -> Cost {
-        let Self { block, points, placement, out } = self;
-        let settings = block.settings;
+    fn run<R: RoundingMode, O: OverflowMode>(mut self) -> Cost {
         let mut cost = Cost::default();
-        boundary::<R, O>(&settings, points, placement, out, &mut cost);
-        interior::<R, O>(block, points, placement, out, &mut cost);
+        self.boundary::<R, O>(&mut cost);
+        let [columns, rows] = self.placement.interior();
+        if columns > 0 && rows > 0 {
+            // At level 1 there are two triangles and no interior.
+            self.row_points::<R, O>(rows, &mut cost);
+            self.rows::<R, O>(columns, rows, &mut cost);
+        }
         cost
     }
 }
 
-/// The four edges, each a function of its own points alone.
-fn boundary<R: RoundingMode, O: OverflowMode>(
-    settings: &Settings,
-    points: &[Point; 16],
-    placement: &Placement,
-    out: &mut [Vertex],
-    cost: &mut Cost,
-) {
-    let starts = placement.starts();
-    let forward = settings.scheme != Scheme::DeCasteljau;
-    for (edge, list) in placement.edges.iter().enumerate() {
-        let curve = EDGES[edge].map(|k| points[k]);
-        let place = |k| placement.boundary_vertex(&starts, edge, k);
-        let runner = Runner::new::<O>(settings, forward, &curve);
-        runner.run::<R, O>(&curve, list, cost, |k, point| out[place(k)].position = point);
-        for (k, &t) in list.parameters().iter().enumerate() {
-            let vertex = &mut out[place(k)];
-            [vertex.u, vertex.v] = [[t, 0], [ONE, t], [t, ONE], [0, t]][edge];
+impl Work<'_> {
+    /// The four edges, each a function of its own points alone.
+    fn boundary<R: RoundingMode, O: OverflowMode>(&mut self, cost: &mut Cost) {
+        let Self { block, points, placement, out } = self;
+        let starts = placement.starts();
+        let forward = block.settings.scheme != Scheme::DeCasteljau;
+        for (edge, list) in placement.edges.iter().enumerate() {
+            let curve = EDGES[edge].map(|k| points[k]);
+            block.run::<R, O>(&curve, list, forward, cost);
+            for (k, (&position, &t)) in block.curve.iter().zip(list.parameters()).enumerate() {
+                let [u, v] = [[t, 0], [ONE, t], [t, ONE], [0, t]][edge];
+                out[placement.boundary_vertex(&starts, edge, k)] = Vertex { position, u, v };
+            }
         }
+        cost.invocations += placement.boundary() as u64;
     }
-    cost.invocations += placement.boundary() as u64;
-}
 
-/// The interior, row by row.
-fn interior<R: RoundingMode, O: OverflowMode>(
-    block: &mut Evaluate,
-    points: &[Point; 16],
-    placement: &Placement,
-    out: &mut [Vertex],
-    cost: &mut Cost,
-) {
-    let [columns, rows] = placement.interior();
-    if columns == 0 || rows == 0 {
-        return; // level 1: two triangles and no interior
-    }
-    let settings = block.settings;
-    let forward = settings.scheme == Scheme::Forward;
-    block.rows.resize(rows, [[0; 4]; 4]);
-    for column in 0..4 {
-        let curve = [0, 4, 8, 12].map(|row| points[row + column]);
-        let runner = Runner::new::<O>(&settings, forward, &curve);
-        runner.run::<R, O>(&curve, &placement.v, cost, |k, point| {
-            if let Some(row) = block.rows.get_mut(k.wrapping_sub(1)) {
+    /// The control points of the interior rows: points of the net's columns.
+    fn row_points<R: RoundingMode, O: OverflowMode>(&mut self, rows: usize, cost: &mut Cost) {
+        let Self { block, points, placement, .. } = self;
+        let forward = block.settings.scheme == Scheme::Forward;
+        block.rows.resize(rows, [[0; 4]; 4]);
+        for column in 0..4 {
+            let curve = [0, 4, 8, 12].map(|row| points[row + column]);
+            block.run::<R, O>(&curve, &placement.v, forward, cost);
+            for (row, &point) in block.rows.iter_mut().zip(&block.curve[1..]) {
                 row[column] = point;
             }
-        });
-    }
-    let (us, vs) = (placement.u.parameters(), placement.v.parameters());
-    let interior = &mut out[placement.boundary()..];
-    for ((row, curve), &v) in interior.chunks_exact_mut(columns).zip(&block.rows).zip(&vs[1..]) {
-        let runner = Runner::new::<O>(&settings, forward, curve);
-        runner.run::<R, O>(curve, &placement.u, cost, |k, point| {
-            if let Some(vertex) = row.get_mut(k.wrapping_sub(1)) {
-                vertex.position = point;
-            }
-        });
-        for (vertex, &u) in row.iter_mut().zip(&us[1..]) {
-            [vertex.u, vertex.v] = [u, v];
         }
-    }
-    cost.invocations += (4 * rows + columns * rows) as u64;
-}
-
-/// How one curve is run.
-#[derive(Clone, Copy)]
-struct Runner<'a> {
-    settings: &'a Settings,
-    forward: bool,
-    /// Whether an output might not fit.
-    checked: bool,
-}
-
-impl<'a> Runner<'a> {
-    fn new<O: OverflowMode>(settings: &'a Settings, forward: bool, curve: &[Point; 4]) -> Self {
-        // The curve lies in the hull of its points; what rounding adds is bounded by `forward::error_max`.
-        let largest = curve.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
-        let room = settings.position.max() - forward::error_max(settings.guard);
-        Self { settings, forward, checked: largest > room }
+        cost.invocations += 4 * rows as u64;
     }
 
-    /// Hands out the points of the curve by their entry in the list, in any order.
-    #[inline(always)]
+    /// The interior, row by row.
+    fn rows<R: RoundingMode, O: OverflowMode>(
+        &mut self,
+        columns: usize,
+        rows: usize,
+        cost: &mut Cost,
+    ) {
+        let Self { block, placement, out, .. } = self;
+        let forward = block.settings.scheme == Scheme::Forward;
+        let (us, vs) = (placement.u.parameters(), placement.v.parameters());
+        let interior = &mut out[placement.boundary()..];
+        for (row, vertices) in interior.chunks_exact_mut(columns).enumerate() {
+            let curve = block.rows[row];
+            block.run::<R, O>(&curve, &placement.u, forward, cost);
+            let v = vs[row + 1];
+            for ((vertex, &position), &u) in
+                vertices.iter_mut().zip(&block.curve[1..]).zip(&us[1..])
+            {
+                *vertex = Vertex { position, u, v };
+            }
+        }
+        cost.invocations += (columns * rows) as u64;
+    }
+}
+
+impl Evaluate {
+    /// Evaluates a curve at all entries of a list into `self.curve`.
     fn run<R: RoundingMode, O: OverflowMode>(
-        &self,
+        &mut self,
         curve: &[Point; 4],
         list: &List,
+        forward: bool,
         cost: &mut Cost,
-        mut put: impl FnMut(usize, Point),
     ) {
-        let (checked, format) = (self.checked, self.settings.position);
-        let mut overflows = 0;
-        let fitted = |k: usize, point: Point| {
-            if !checked {
-                return put(k, point);
-            }
-            put(
-                k,
-                point.map(|c| {
-                    let (c, overflowed) = format.fit::<O>(c.into());
-                    overflows += u64::from(overflowed);
-                    c
-                }),
-            );
-        };
-        let (curves, steps) = if self.forward {
-            forward::run::<R>(curve, list, self.settings.guard, fitted)
+        let Settings { position, guard, .. } = self.settings;
+        self.curve.resize(list.segments() + 1, [0; 4]);
+        let (curves, steps) = if forward {
+            forward::run::<R>(curve, list, guard, &mut self.curve)
         } else {
-            casteljau::run::<R>(curve, list, fitted)
+            casteljau::run::<R>(curve, list, &mut self.curve)
         };
         cost.curves += curves;
         cost.steps += steps;
-        cost.overflows += overflows;
+        // The curve lies in the hull of its points, and rounding adds a bounded error: mostly all fits unseen.
+        let largest = curve.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
+        if largest > position.max() - forward::error_max(guard) {
+            for c in self.curve.iter_mut().flatten() {
+                let (fitted, overflowed) = position.fit::<O>((*c).into());
+                *c = fitted;
+                cost.overflows += u64::from(overflowed);
+            }
+        }
     }
 }

@@ -6,11 +6,13 @@
 
 mod config;
 mod counters;
+mod import;
 mod info;
 mod pattern;
 mod print;
 mod progress;
 mod run;
+mod scene;
 mod table;
 
 use clap::{Parser, Subcommand};
@@ -37,6 +39,8 @@ enum Command {
     Info(info::Args),
     Config(config::Args),
     Counters(counters::Args),
+    Scene(scene::Args),
+    Import(import::Args),
     Pattern(pattern::Args),
 }
 
@@ -67,6 +71,8 @@ impl Cli {
             Command::Info(args) => info::run(args),
             Command::Config(args) => config::run(args),
             Command::Counters(args) => counters::run(args),
+            Command::Scene(args) => scene::run(args),
+            Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
         }
     }

@@ -3,12 +3,25 @@
 use std::io::{self, ErrorKind, StdoutLock, Write};
 use std::path::Path;
 use tessim::error::{Error, Result};
+use tessim::output::file::AtomicFile;
 
 const STDOUT: &str = "standard output";
 
 /// Prints `text`, its colours only on a terminal that wants them (`NO_COLOR`).
 pub(crate) fn print(text: &str) -> Result<()> {
     with(|out| out.write_all(text.as_bytes()))
+}
+
+/// Writes a text to the file at `path`, which appears when it is complete, or to standard output for
+/// none and for `-`.
+pub(crate) fn to_file_or_stdout(
+    path: Option<&Path>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    let Some(path) = path.filter(|path| *path != Path::new("-")) else { return with(write) };
+    let mut file = AtomicFile::create(path)?;
+    write(&mut file).map_err(|error| Error::system(path, error))?;
+    file.commit()
 }
 
 /// Writes to standard output through a buffer.

@@ -75,12 +75,11 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let folder = args.out.as_deref().map(ResultFolder::create).transpose()?;
     let results = args.simulate(reader, &config, &pool, folder.as_ref(), quiet)?;
     let Results { report, provenance } = results;
-    let host_bytes = summary::host_bytes(&report);
     if let Some(folder) = folder {
-        write(&folder, &report, &summary::text(&report, &provenance, host_bytes))?;
+        write(&folder, &report, &summary::text(&report, &provenance))?;
         folder.commit()?;
     }
-    if quiet { Ok(()) } else { print::print(&table::text(&report, &provenance.title, host_bytes)) }
+    if quiet { Ok(()) } else { print::print(&table::text(&report, &provenance.title)) }
 }
 
 struct Results {

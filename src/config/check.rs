@@ -115,7 +115,7 @@ fn guard_found(guard: u32, width: u32) -> String {
     format!("{guard} with position.width {width}")
 }
 
-fn within<T: PartialOrd + Display>(
+fn within<T: Copy + PartialOrd + Display>(
     key: &'static str,
     value: T,
     least: T,

@@ -37,7 +37,7 @@ pub const KEYS: &[Key] = &[
     ),
     optional(
         "level.criterion",
-        "overrides the trace's criterion; its number must be given too",
+        "overrides the trace's criterion; goes with its number",
         "flatness (pixels), edge_length (pixels) or fixed (level)",
         ("\"flatness\"", "the trace's; `level` alone means fixed, `pixels` alone means flatness"),
     ),

@@ -55,6 +55,7 @@ mod tests {
             config: Config::default(),
             blocks: &[Block::Trace, Block::Clip],
             frames: vec![Counters::default(), second],
+            host_link_bytes: 0,
         };
         let mut text = Vec::new();
         write(&report, &mut text).unwrap();

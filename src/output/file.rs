@@ -27,7 +27,7 @@ impl AtomicFile {
         let mut builder = Builder::new();
         builder.prefix(".tessim-").permissions(usual_permissions(0o666));
         let file = builder.tempfile_in(parent(&path));
-        let file = file.map_err(|error| Error::system(&path, reason(error)))?;
+        let file = file.map_err(|error| Error::system(&path, reason(&error)))?;
         Ok(Self { path, file: BufWriter::new(file) })
     }
 
@@ -65,7 +65,7 @@ impl Write for AtomicFile {
 /// [`Error::System`] when the folder cannot be written.
 pub fn spool(path: &Path) -> Result<BufWriter<File>> {
     let file = tempfile::tempfile_in(parent(path));
-    file.map(BufWriter::new).map_err(|error| Error::system(path, reason(error)))
+    file.map(BufWriter::new).map_err(|error| Error::system(path, reason(&error)))
 }
 
 /// Appends everything in `spool` to `out`.
@@ -92,7 +92,7 @@ pub fn parent(path: &Path) -> &Path {
 }
 
 /// `tempfile` names its own random path in the error; the user's path is the one to name.
-pub(super) fn reason(error: io::Error) -> io::Error {
+pub(super) fn reason(error: &io::Error) -> io::Error {
     match error.kind() {
         io::ErrorKind::NotFound => {
             io::Error::new(io::ErrorKind::NotFound, "the folder to write in does not exist")

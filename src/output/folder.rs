@@ -39,7 +39,7 @@ impl ResultFolder {
         let mut builder = Builder::new();
         builder.prefix(".tessim-").permissions(file::usual_permissions(0o777));
         let workshop = builder.tempdir_in(file::parent(&target));
-        let workshop = workshop.map_err(|error| Error::system(&target, file::reason(error)))?;
+        let workshop = workshop.map_err(|error| Error::system(&target, file::reason(&error)))?;
         let folder = Self { target, workshop };
         fs::create_dir(folder.path()).map_err(|error| Error::system(&folder.target, error))?;
         Ok(folder)

@@ -81,8 +81,13 @@ mod tests {
         let mut text = Vec::new();
         let corner = |u, v| Vertex { position: [i64::from(u), 0, 0, 1 << 16], u, v };
         let vertices = [corner(0, 0), corner(ONE, 0), corner(ONE, ONE)];
-        let mesh =
-            PatchMesh { patch: 7, vertices: &vertices, screen: &[], triangles: &[[0, 1, 2]] };
+        let mesh = PatchMesh {
+            patch: 7,
+            reversed: false,
+            vertices: &vertices,
+            screen: &[],
+            triangles: &[[0, 1, 2]],
+        };
         write_patch(&mut text, 3, &frame(), &mesh).unwrap();
         assert_eq!(
             String::from_utf8(text).unwrap(),

@@ -33,9 +33,9 @@ pub struct DataFile {
     pub sha256: String,
 }
 
-/// The text of `summary.json`. `host_bytes` is what would cross the link if the host tessellated.
+/// The text of `summary.json`.
 #[must_use]
-pub fn text(report: &Report, provenance: &Provenance, host_bytes: u64) -> String {
+pub fn text(report: &Report, provenance: &Provenance) -> String {
     let totals = report.totals();
     let value = json!({
         "tessim": env!("CARGO_PKG_VERSION"),
@@ -44,7 +44,7 @@ pub fn text(report: &Report, provenance: &Provenance, host_bytes: u64) -> String
         "engine": match report.config.engine { Engine::None => "none" },
         "frames": report.frames.len(),
         "totals": totals_by_name(report, &totals),
-        "rates": rates(report, &totals, host_bytes),
+        "rates": rates(report, &totals),
         "shares": shares(report, &totals),
     });
     let mut text = serde_json::to_string_pretty(&value).expect("names and numbers are JSON");
@@ -61,19 +61,6 @@ pub fn is_summary(path: &Path) -> bool {
         .is_some_and(|summary| summary.get("tessim").is_some_and(Value::is_string))
 }
 
-/// What would cross the link if the host tessellated into the same triangles: every vertex with its
-/// attributes, indices of 2 bytes (patches are drawn one by one, none has more than 65536 vertices),
-/// and the commands and matrices, which stay. Framing is left out.
-#[must_use]
-pub fn host_bytes(report: &Report) -> u64 {
-    let totals = report.totals();
-    let vertices =
-        totals.get(Counter::EmitVertices) * u64::from(report.config.triangles.vertex_bytes);
-    let indices = 3 * 2 * totals.get(Counter::EmitTriangles);
-    let state = totals.get(Counter::LinkCommands) + totals.get(Counter::LinkMatrices);
-    vertices + indices + state
-}
-
 fn totals_by_name(report: &Report, totals: &Counters) -> Value {
     let named = report.declarations().map(|declared| {
         let name = format!("{}.{}", declared.block.name(), declared.name);
@@ -88,7 +75,7 @@ pub fn ratio(of: u64, per: u64) -> Option<f64> {
     (per != 0).then(|| of as f64 / per as f64)
 }
 
-fn rates(report: &Report, totals: &Counters, host_bytes: u64) -> Value {
+fn rates(report: &Report, totals: &Counters) -> Value {
     let link = totals.get(Counter::LinkTotal);
     let triangles = totals.get(Counter::EmitTriangles);
     let patches = totals.get(Counter::TracePatches);
@@ -97,7 +84,7 @@ fn rates(report: &Report, totals: &Counters, host_bytes: u64) -> Value {
     json!({
         "link_bytes_per_triangle": rate(link, triangles, "bytes/triangle"),
         "link_bytes_per_triangle_if_the_host_tessellated":
-            rate(host_bytes, triangles, "bytes/triangle"),
+            rate(report.host_link_bytes, triangles, "bytes/triangle"),
         "link_bytes_per_patch": rate(link, patches, "bytes/patch"),
         "link_bytes_per_frame": rate(link, frames, "bytes/frame"),
         "triangles_per_patch": rate(triangles, patches, "triangles/patch"),
@@ -144,8 +131,9 @@ mod tests {
         counters.add(Counter::LinkTotal, 300);
         counters.add(Counter::EmitTriangles, 8);
         let blocks = &[Block::Link, Block::Clip, Block::Emit];
-        let report = Report { config: Config::default(), blocks, frames: vec![counters] };
-        let text = text(&report, &Provenance::default(), 100);
+        let (config, frames) = (Config::default(), vec![counters]);
+        let report = Report { config, blocks, frames, host_link_bytes: 100 };
+        let text = text(&report, &Provenance::default());
         let value: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["totals"]["link.bytes.total"], 300);
         assert_eq!(value["rates"]["link_bytes_per_triangle"]["value"], 37.5);

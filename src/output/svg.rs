@@ -49,7 +49,8 @@ impl Svg {
     /// # Errors
     /// [`Error::System`] when it cannot be written.
     pub fn patch(&mut self, frame: &FrameInfo, mesh: &PatchMesh<'_>) -> Result<()> {
-        let side = |triangle: &Triangle| faces_front(mesh.screen, triangle, frame.view.facing);
+        let facing = if mesh.reversed { -frame.view.facing } else { frame.view.facing };
+        let side = |triangle: &Triangle| faces_front(mesh.screen, triangle, facing);
         self.undivided += mesh.triangles.iter().filter(|t| side(t).is_none()).count() as u64;
         let edges = edges::distinct(mesh.triangles, side);
         let drawn = |front: bool| {
@@ -215,7 +216,8 @@ mod tests {
         svg.frame(&frame());
         let screen = [at(0, 2560), at(2560, 2560), at(0, 0), Screen::default()];
         let triangles = &[[0, 1, 2], [2, 1, 3]];
-        let mesh = PatchMesh { patch: 0, vertices: &[], screen: &screen, triangles };
+        let mesh =
+            PatchMesh { patch: 0, reversed: false, vertices: &[], screen: &screen, triangles };
         svg.patch(&frame(), &mesh).unwrap();
         svg.finish().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();

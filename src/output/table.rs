@@ -9,9 +9,8 @@ use rtl_model::counter::{Block, Counter, Counters};
 use std::fmt::Write;
 
 /// Renders the table, with ANSI styles; whoever prints it strips them where they do not belong.
-/// `host_bytes` is what would cross the link if the host tessellated.
 #[must_use]
-pub fn text(report: &Report, title: &str, host_bytes: u64) -> String {
+pub fn text(report: &Report, title: &str) -> String {
     let totals = report.totals();
     let mut table = Table { text: String::new(), value_width: value_width(&totals) };
     let unit = unit_name(report.config.unit);
@@ -21,7 +20,7 @@ pub fn text(report: &Report, title: &str, host_bytes: u64) -> String {
     link(&mut table, report, &totals);
     patches(&mut table, report, &totals);
     made(&mut table, report, &totals);
-    verdict(&mut table, report, &totals, host_bytes);
+    verdict(&mut table, report, &totals);
     table.text
 }
 
@@ -107,14 +106,14 @@ fn made(table: &mut Table, report: &Report, totals: &Counters) {
     }
 }
 
-fn verdict(table: &mut Table, report: &Report, totals: &Counters, host_bytes: u64) {
+fn verdict(table: &mut Table, report: &Report, totals: &Counters) {
     table.section("verdict");
     let triangles = totals.get(Counter::EmitTriangles);
     let total = totals.get(Counter::LinkTotal);
     table.rate("link bytes per triangle", ratio(total, triangles), "");
-    let times = ratio(host_bytes, total);
+    let times = ratio(report.host_link_bytes, total);
     let times = times.map_or_else(String::new, |times| format!("  {times:.1} times as many"));
-    table.rate("  if the host tessellated", ratio(host_bytes, triangles), &times);
+    table.rate("  if the host tessellated", ratio(report.host_link_bytes, triangles), &times);
     match report.config.engine {
         Engine::None => table.line("  what binds the run: no engine, so no cycles"),
     }
@@ -160,8 +159,9 @@ mod tests {
         counters.add(Counter::LevelPatches, 16);
         counters.add(Counter::EmitTriangles, 1_234_567);
         let blocks = &[Block::Link, Block::Level, Block::Emit];
-        let report = Report { config: Config::default(), blocks, frames: vec![counters] };
-        let styled = text(&report, "tea\x1b[31mpot", 81920);
+        let (config, frames) = (Config::default(), vec![counters]);
+        let report = Report { config, blocks, frames, host_link_bytes: 81920 };
+        let styled = text(&report, "tea\x1b[31mpot");
         let plain = [BOLD, DIM, PLAIN].iter().fold(styled, |text, s| text.replace(s, ""));
         let expected = "\
 tea[31mpot: unit hybrid, 1 frame

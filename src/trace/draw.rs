@@ -41,8 +41,8 @@ const KINDS: [(&str, Kind); 5] = [
 ];
 
 pub(crate) fn draw(value: Value<'_>, state: &State) -> Found<Command> {
-    refuse_later(value)?;
-    let object = Object::read(value, FIELDS)?;
+    let object = Object::read_with(value, FIELDS, LATER)?;
+    refuse_later(&object)?;
     if !state.in_frame {
         return Err(value.refuse("found a draw before any frame, expected a frame first"));
     }
@@ -57,20 +57,15 @@ pub(crate) fn draw(value: Value<'_>, state: &State) -> Found<Command> {
     Ok(Command::Draw(Draw { primitive, points, first, models, models_sent, reversed, cull }))
 }
 
-/// Says of a draw that a later version can do that it is that, rather than that its fields are unknown.
-fn refuse_later(value: Value<'_>) -> Found<()> {
-    let mut field = None;
-    value.entries("an object", |key, value| {
-        let name = key.string("a name")?;
-        if name == "primitive" && matches!(choice(value, &KINDS), Ok(Kind::Later)) {
-            return Err(unsupported(value));
-        }
-        if LATER.contains(&&*name) {
-            field = field.or(Some(key));
-        }
-        Ok(())
-    })?;
-    field.map_or(Ok(()), |key| Err(unsupported(key)))
+/// Says of a draw that a later version can do that it is that.
+fn refuse_later(object: &Object<'_>) -> Found<()> {
+    match object.get("primitive") {
+        Some(value) if matches!(choice(value, &KINDS), Ok(Kind::Later)) => Err(unsupported(value)),
+        _ => match LATER.iter().find_map(|name| object.key(name)) {
+            Some(key) => Err(unsupported(key)),
+            None => Ok(()),
+        },
+    }
 }
 
 fn primitive(object: &Object<'_>) -> Found<Primitive> {
@@ -125,6 +120,12 @@ fn check_points(
 fn models(object: &Object<'_>) -> Found<(Vec<[f32; 16]>, bool)> {
     if let Some(list) = object.get("instances") {
         object.forbid("model", "which `instances` excludes")?;
+        if let Some(models) =
+            serde_json::from_str::<Vec<_>>(list.text).ok().filter(|m| !m.is_empty())
+        {
+            return Ok((models, true));
+        }
+        // What is wrong with them, element by element.
         let mut models = Vec::new();
         list.elements("an array of matrices", |_, element| {
             models.push(matrix(element)?);

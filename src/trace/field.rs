@@ -13,10 +13,19 @@ pub(crate) struct Object<'a> {
 impl<'a> Object<'a> {
     /// Reads an object that may have the fields `known` and no others.
     pub(crate) fn read(whole: Value<'a>, known: &'static [&'static str]) -> Found<Self> {
+        Self::read_with(whole, known, &[])
+    }
+
+    /// Reads an object that may also have the fields `later`, which messages do not list.
+    pub(crate) fn read_with(
+        whole: Value<'a>,
+        known: &'static [&'static str],
+        later: &'static [&'static str],
+    ) -> Found<Self> {
         let mut found: Vec<(&'static str, Value<'a>, Value<'a>)> = Vec::new();
         whole.entries("an object", |key, value| {
             let text = key.string("a name")?;
-            let Some(name) = known.iter().find(|k| **k == text) else {
+            let Some(name) = known.iter().chain(later).find(|k| **k == text) else {
                 return Err(unknown("field", key, &text, known));
             };
             if found.iter().any(|(n, ..)| n == name) {
@@ -42,10 +51,15 @@ impl<'a> Object<'a> {
         })
     }
 
+    /// The key of a field.
+    pub(crate) fn key(&self, name: &str) -> Option<Value<'a>> {
+        self.found.iter().find(|(n, ..)| *n == name).map(|(_, key, _)| *key)
+    }
+
     /// Refuses a field that has no place here.
     pub(crate) fn forbid(&self, name: &str, reason: &str) -> Found<()> {
-        match self.found.iter().find(|(n, ..)| *n == name) {
-            Some((_, key, _)) => Err(key.refuse(format!("found `{name}`, {reason}"))),
+        match self.key(name) {
+            Some(key) => Err(key.refuse(format!("found `{name}`, {reason}"))),
             None => Ok(()),
         }
     }
@@ -138,6 +152,9 @@ pub(crate) fn choice<T: Copy>(value: Value<'_>, choices: &[(&str, T)]) -> Found<
 /// A 4 by 4 matrix of finite numbers, column-major.
 pub(crate) fn matrix(value: Value<'_>) -> Found<[f32; 16]> {
     const WHAT: &str = "a matrix of 16 numbers, column-major";
+    if let Ok(matrix) = serde_json::from_str(value.text) {
+        return Ok(matrix); // f32 takes no numbers that are not finite
+    }
     let mut matrix = [0.0; 16];
     let mut count = 0;
     value.elements(WHAT, |i, element| {

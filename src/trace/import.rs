@@ -12,8 +12,10 @@ use super::points::PointSource;
 use super::scene::camera::Camera;
 use super::write::Writer;
 use crate::error::{Error, Place, Result};
+use std::ffi::OsStr;
 use std::fmt::Display;
 use std::io::{BufRead, Write};
+use std::path::Path;
 use std::sync::Arc;
 
 /// The most patches of a file.
@@ -29,7 +31,9 @@ const PATCHES_A_DRAW: usize = 1 << 13;
 /// A malformed file, with line and column; what input and output say.
 pub fn import_bpt(input: impl BufRead, file_name: &str, output: impl Write) -> Result<()> {
     let points = read_bpt(input, file_name)?;
-    let title = format!("{} patches from {file_name}", points.len() / 16);
+    // Its own name only: a trace holds no path of the machine that it was made on.
+    let name = Path::new(file_name).file_name().map_or(file_name.into(), OsStr::to_string_lossy);
+    let title = format!("{} patches from {name}", points.len() / 16);
     write(&points, title, output).map_err(|e| Error::system("the imported trace", e))
 }
 

@@ -138,6 +138,12 @@ impl<'a> Value<'a> {
             "expected value" => {
                 format!("not JSON: found `{found}`, expected a value (JSON has no NaN or infinity)")
             }
+            "key must be a string" if rest.starts_with('}') => {
+                "not JSON: found `}` after a comma, expected another field".into()
+            }
+            "trailing comma" => {
+                format!("not JSON: found `{found}` after a comma, expected another value")
+            }
             "expected ident" => format!("not JSON: found `{found}`, expected a value"),
             _ => format!("not JSON: {reason}, found `{found}`"),
         };

@@ -240,5 +240,6 @@ fn level(value: Value<'_>) -> Found<u32> {
 
 /// The fault of a field that a later version may have.
 pub(crate) fn unsupported(key: Value<'_>) -> Fault {
-    key.refuse(format!("found {}, which is not supported by this version of tessim", key.text))
+    let found = super::json::snippet(key.text);
+    key.refuse(format!("found {found}, which is not supported by this version of tessim"))
 }

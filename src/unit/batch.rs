@@ -215,6 +215,7 @@ struct Pieces {
 /// A patch's ends within [`Pieces`].
 struct Piece {
     id: u32,
+    reversed: bool,
     vertices: usize,
     screen: usize,
     triangles: usize,
@@ -254,7 +255,7 @@ impl Work<'_> {
             if pipeline.accept(&self.gather(pending, draw), &draw.state) {
                 pieces.tally(draw.number, &pipeline);
                 if keep {
-                    pieces.keep(pending.id, &pipeline);
+                    pieces.keep(pending.id, draw.reversed, &pipeline);
                 }
             }
         }
@@ -284,12 +285,13 @@ impl Pieces {
         add(&mut self.tallies, tally);
     }
 
-    fn keep(&mut self, id: u32, made: &Pipeline) {
+    fn keep(&mut self, id: u32, reversed: bool, made: &Pipeline) {
         self.vertices.extend_from_slice(&made.vertices);
         self.screen.extend_from_slice(&made.screen);
         self.triangles.extend_from_slice(&made.triangles);
         self.patches.push(Piece {
             id,
+            reversed,
             vertices: self.vertices.len(),
             screen: self.screen.len(),
             triangles: self.triangles.len(),
@@ -301,6 +303,7 @@ impl Pieces {
         for piece in &self.patches {
             sink.patch(&PatchMesh {
                 patch: piece.id,
+                reversed: piece.reversed,
                 vertices: &self.vertices[v..piece.vertices],
                 screen: &self.screen[s..piece.screen],
                 triangles: &self.triangles[t..piece.triangles],

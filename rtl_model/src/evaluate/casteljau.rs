@@ -20,18 +20,16 @@ pub(super) fn triangle<R: RoundingMode>([a, b, c, d]: &[Point; 4], t: u32) -> [P
     [abc, bcd, mix(&abc, &bcd)]
 }
 
-/// Evaluates the list's entries. Returns half-runs (none) and points evaluated.
-#[inline(always)]
+/// Evaluates the list's entries; `out` has one for each. Returns half-runs (none) and points evaluated.
 pub(super) fn run<R: RoundingMode>(
     curve: &[Point; 4],
     list: &List,
-    mut put: impl FnMut(usize, Point),
+    out: &mut [Point],
 ) -> (u64, u64) {
     let segments = list.segments();
-    put(0, curve[0]);
-    put(segments, curve[3]);
-    for (k, &t) in list.parameters().iter().enumerate().take(segments).skip(1) {
-        put(k, curve_point::<R>(curve, t));
+    for (point, &t) in out.iter_mut().zip(list.parameters()) {
+        *point = curve_point::<R>(curve, t);
     }
+    (out[0], out[segments]) = (curve[0], curve[3]);
     (0, segments as u64 - 1)
 }

@@ -54,22 +54,21 @@ impl Registers {
     }
 }
 
-/// Runs a curve from both ends over the list's entries. Returns half-runs and steps.
-#[inline(always)]
+/// Runs a curve from both ends; `out` has an entry for each of the list's. Returns half-runs and steps.
 pub(super) fn run<R: RoundingMode>(
     curve: &[Point; 4],
     list: &List,
     guard: u32,
-    mut put: impl FnMut(usize, Point),
+    out: &mut [Point],
 ) -> (u64, u64) {
     let segments = list.segments();
-    put(0, curve[0]);
-    put(segments, curve[3]);
+    out[0] = curve[0];
+    out[segments] = curve[3];
     if list.level() == Level::MIN {
         return (0, 0);
     }
     if list.level() == Level::TWO {
-        put(1, centre::<R>(curve));
+        out[1] = centre::<R>(curve);
         return (0, 0);
     }
     let [mut near, mut far] = set_up(curve, list.reciprocal(), guard);
@@ -77,20 +76,21 @@ pub(super) fn run<R: RoundingMode>(
         // 1 < level < 2: each end's single step passes the centre and makes the other half's vertex.
         near.step();
         far.step();
-        put(2, near.output::<R>(guard));
-        put(1, far.output::<R>(guard));
+        out[2] = near.output::<R>(guard);
+        out[1] = far.output::<R>(guard);
         return (2, 2);
     }
     let half = list.half_segments();
-    for k in 1..half {
+    let (first, second) = out.split_at_mut(half);
+    for point in &mut first[1..] {
         near.step();
-        put(k, near.output::<R>(guard));
+        *point = near.output::<R>(guard);
     }
-    for k in 1..half {
+    second[0] = centre::<R>(curve);
+    for point in second[1..half].iter_mut().rev() {
         far.step();
-        put(segments - k, far.output::<R>(guard));
+        *point = far.output::<R>(guard);
     }
-    put(half, centre::<R>(curve));
     (2, 2 * (half as u64 - 1))
 }
 

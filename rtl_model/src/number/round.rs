@@ -52,17 +52,28 @@ pub fn shift_right_wide<R: RoundingMode>(value: i128, n: u32) -> i128 {
 #[must_use]
 #[inline]
 pub fn divide<R: RoundingMode>(numerator: i128, denominator: i128) -> i128 {
-    assert!(denominator > 0, "a denominator is positive");
     if let (Ok(n), Ok(d)) = (i64::try_from(numerator), i64::try_from(denominator))
-        && d < 1 << 61
+        && d < 1 << 62
     {
-        let (quotient, rest) = (n.div_euclid(d), n.rem_euclid(d));
-        let up = rounds_up::<R>((2 * rest).cmp(&d), quotient & 1 != 0, n < 0);
-        return i128::from(quotient + i64::from(up));
+        return divide_narrow::<R>(n, d).into();
     }
+    assert!(denominator > 0, "a denominator is positive");
     let (quotient, rest) = (numerator.div_euclid(denominator), numerator.rem_euclid(denominator));
     let up = rounds_up::<R>((2 * rest).cmp(&denominator), quotient & 1 != 0, numerator < 0);
     quotient + i128::from(up)
+}
+
+/// [`divide`] in 64 bits; the denominator below 2^62.
+///
+/// # Panics
+/// When the denominator is not positive.
+#[must_use]
+#[inline]
+pub fn divide_narrow<R: RoundingMode>(numerator: i64, denominator: i64) -> i64 {
+    assert!(denominator > 0, "a denominator is positive");
+    let (quotient, rest) = (numerator.div_euclid(denominator), numerator.rem_euclid(denominator));
+    let up = rounds_up::<R>((2 * rest).cmp(&denominator), quotient & 1 != 0, numerator < 0);
+    quotient + i64::from(up)
 }
 
 /// Whether a floored quotient goes one up; `past_half` compares what was cut off with a half.

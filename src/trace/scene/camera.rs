@@ -40,16 +40,23 @@ impl Camera {
         let seen: Vec<DVec3> = world.map(|p| axes.transpose() * p).collect();
         let low = seen.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = seen.iter().copied().reduce(DVec3::max).unwrap_or_default();
-        let middle = (low + high) / 2.0;
+        let mut middle = (low + high) / 2.0;
         // A model of no size gets one, in proportion to where it is.
         let size = (high - low).max_element().max(1e-6 * middle.abs().max_element()).max(1e-6);
         let depth = (high.z - low.z) / 2.0;
-        let room = |p: &DVec3| {
-            let offset = (p - middle).abs();
-            let (x, y) = (offset.x * FOCAL / aspect(), offset.y * FOCAL);
-            p.z - middle.z + x.max(y) / FILL
+        let fitted = |middle: DVec3| {
+            seen.iter().map(|p| room(*p - middle)).fold(depth + size / 16.0, f64::max)
         };
-        let distance = seen.iter().map(room).fold(depth + size / 16.0, f64::max);
+        // What is near looks larger, so the middle of the picture is not that of the box: a few steps find it.
+        for _ in 0..8 {
+            let distance = fitted(middle);
+            let shown = |p: &DVec3| (*p - middle) / (distance - (p.z - middle.z));
+            let least = seen.iter().map(shown).reduce(DVec3::min).unwrap_or_default();
+            let most = seen.iter().map(shown).reduce(DVec3::max).unwrap_or_default();
+            let shift = (least + most) / 2.0 * distance;
+            middle += DVec3::new(shift.x, shift.y, 0.0);
+        }
+        let distance = fitted(middle);
         Self {
             eye: axes * (middle + DVec3::Z * distance),
             axes,
@@ -83,6 +90,12 @@ impl Camera {
 
 fn aspect() -> f64 {
     f64::from(VIEWPORT[0]) / f64::from(VIEWPORT[1])
+}
+
+/// How far from the eye the middle must be for the point at `offset` from it, in eye axes, to be seen.
+fn room(offset: DVec3) -> f64 {
+    let side = (offset.x.abs() * FOCAL / aspect()).max(offset.y.abs() * FOCAL);
+    offset.z + side / FILL
 }
 
 /// Right, up and back for an eye that stands in the direction `back`, not straight above.
