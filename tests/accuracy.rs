@@ -1,13 +1,16 @@
-//! Accuracy: how far the tessellation is from the true surface, in pixels, against the tolerance that was asked for.
+//! Accuracy: how far the tessellation is from the true surface, in pixels, against the tolerance
+//! that was asked for.
 //!
-//! Vertices are the hardware's fixed-point clip positions; between them a segment or a triangle is linear on the
-//! screen. The true surface is f64 from the control points on. The distance is taken at equal parameters, densely
-//! inside every segment and triangle, and divided by the tolerance.
+//! Vertices are the hardware's fixed-point clip positions; between them a segment or a triangle
+//! is linear on the screen. The true surface is f64 from the control points on. The distance is
+//! taken at equal parameters, densely inside every segment and triangle, and divided by the
+//! tolerance.
 //!
-//! Where w is 1 and no level was cut to the greatest, two bounds are rigorous and the ratio is at most 1: the second
-//! derivative's for boundary curves, Filip's for triangles of the interior grid. The strips between the two have no
-//! such bound where an edge has fewer segments than the interior, and under perspective the bounds are estimates,
-//! since a projected cubic is rational: those ratios are printed, not asserted.
+//! Where w is 1 and no level was cut to the greatest, two bounds are rigorous and the ratio is at
+//! most 1: the second derivative's for boundary curves, Filip's for triangles of the interior
+//! grid. The strips between the two have no such bound where an edge has fewer segments than the
+//! interior, and under perspective the bounds are estimates, since a projected cubic is rational:
+//! those ratios are printed, not asserted.
 
 #[allow(dead_code, reason = "tests/agreement draws patches of other kinds")]
 #[path = "support/random.rs"]
@@ -27,8 +30,9 @@ use tessim::config::{Config, Scheme};
 use tessim::golden::place::{Placed, place};
 use tessim::golden::{Real, evaluate};
 
-/// What positions may add to a ratio. A shader's f32 coordinate is off by 2^-22 of some 640 pixels, a parameter
-/// kR / 2^32 makes the last step longer by 2^-26 of itself: each below a thousandth of half a pixel.
+/// What positions may add to a ratio. A shader's f32 coordinate is off by 2^-22 of some 640
+/// pixels, a parameter kR / 2^32 makes the last step longer by 2^-26 of itself: each below a
+/// thousandth of half a pixel.
 const ALLOWANCE: f64 = 2e-3;
 
 /// Samples inside a segment.
@@ -62,7 +66,8 @@ struct Account {
     grid: Ratios,
     /// Triangles with a vertex on an edge.
     strips: Ratios,
-    /// Edges and grids of which the criterion asked more than the greatest level, or that have no projection.
+    /// Edges and grids of which the criterion asked more than the greatest level, or that have no
+    /// projection.
     cut: Ratios,
 }
 
@@ -96,7 +101,8 @@ fn screen([x, y, _, w]: Real, view: &View) -> [f64; 2] {
     [x / w * f64::from(view.viewport[0]) / 2.0, y / w * f64::from(view.viewport[1]) / 2.0]
 }
 
-/// Tessellates; `None` where a point is behind the near threshold, so that nothing is seen of the error.
+/// Tessellates; `None` where a point is behind the near threshold, so that nothing is seen of the
+/// error.
 fn tessellate<'a>(
     patch: &Patch,
     truth: &'a [Real; 16],
@@ -256,7 +262,8 @@ fn shipped_models_under_their_cameras() {
     }
 }
 
-/// The shipped polynomial models again, seen without perspective: there the bounds hold for them, too.
+/// The shipped polynomial models again, seen without perspective: there the bounds hold for them,
+/// too.
 #[test]
 fn shipped_models_without_perspective_are_within_the_tolerance() {
     let config = Config::default();

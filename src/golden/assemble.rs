@@ -1,8 +1,9 @@
-//! Assemble: the size of a primitive in, the points of each of its patches out (Sfarti et al. 2005, section 6).
+//! Assemble: the size of a primitive in, the points of each of its patches out (Sfarti et al.
+//! 2005, section 6).
 //!
-//! The definition is geometric. Control points are the nodes of a lattice, a patch is a cell with its 4 x 4 nodes,
-//! points are numbered by row and column, and a patch brings the nodes that no patch before it had. The block knows
-//! closed formulas for all that; here they are sets.
+//! The definition is geometric. Control points are the nodes of a lattice, a patch is a cell with
+//! its 4 x 4 nodes, points are numbered by row and column, and a patch brings the nodes that no
+//! patch before it had. The block knows closed formulas for all that; here they are sets.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,9 +1,10 @@
 //! Back-face removal: a patch in, whether it shows the viewer no front out.
 //!
-//! The sign of det[S, Su, Sv] over x, y, w says which side of the surface the viewer is on (Loop, Niessner, Eisenacher
-//! 2011). The block multiplies Bernstein forms; here S goes to the power basis, the determinant is formed there as
-//! Sv . (S x Su), and only the result goes back to the Bernstein basis of bidegree (8, 8). All in 256 bits: power
-//! coefficients of S have W + 6 bits, the determinant 3 W + 30, its Bernstein coefficients 3 W + 44.
+//! The sign of det[S, Su, Sv] over x, y, w says which side of the surface the viewer is on (Loop,
+//! Niessner, Eisenacher 2011). The block multiplies Bernstein forms; here S goes to the power
+//! basis, the determinant is formed there as Sv . (S x Su), and only the result goes back to the
+//! Bernstein basis of bidegree (8, 8). All in 256 bits: power coefficients of S have W + 6 bits,
+//! the determinant 3 W + 30, its Bernstein coefficients 3 W + 44.
 
 use super::{evaluate, real};
 use crate::config::BackfaceMethod;
@@ -34,7 +35,8 @@ pub fn culled(patch: &Patch, view: &View, method: BackfaceMethod) -> Option<bool
     Some(!any)
 }
 
-/// Volumes under the viewer of the 36 triangles of the control net: of each facet, those that leave out one corner.
+/// Volumes under the viewer of the 36 triangles of the control net: of each facet, those that
+/// leave out one corner.
 fn facet_volumes(points: &[Point; 16]) -> Vec<I256> {
     let facets = [0, 1, 2, 4, 5, 6, 8, 9, 10].map(|k| [k, k + 1, k + 5, k + 4]);
     let triangles = facets
@@ -53,25 +55,27 @@ fn leibniz(m: [[i64; 3]; 3]) -> I256 {
     sum([[0, 1, 2], [1, 2, 0], [2, 0, 1]]) - sum([[2, 1, 0], [0, 2, 1], [1, 0, 2]])
 }
 
-/// The Bernstein coefficients of det[S, Su, Sv], row k along v, column l along u, times C(8,k) C(8,l).
+/// The Bernstein coefficients of det[S, Su, Sv], row k along v, column l along u, times C(8,k)
+/// C(8,l).
 #[must_use]
 pub fn bernstein(points: &[Point; 16]) -> Polynomial {
     let s = ROWS.map(|row| power(points, row));
     let (su, sv) = (s.map(|p| along_u(&p)), s.map(|p| transposed(&along_u(&transposed(&p)))));
     let zero = [[I256::ZERO; 9]; 9];
     let mut determinant = zero;
-    for i in 0..3 {
+    for (i, tangent) in sv.iter().enumerate() {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let mut minor = zero; // of S and Su
         add_product(&mut minor, &s[j], &su[k], I256::ONE);
         add_product(&mut minor, &s[k], &su[j], I256::MINUS_ONE);
-        add_product(&mut determinant, &sv[i], &minor, I256::ONE);
+        add_product(&mut determinant, tangent, &minor, I256::ONE);
     }
     let rows = determinant.map(|row| to_bernstein(&row));
     transposed(&transposed(&rows).map(|column| to_bernstein(&column)))
 }
 
-/// S in the power basis: the i-th power's coefficient is C(3,i) times the i-th forward difference, along both axes.
+/// S in the power basis: the i-th power's coefficient is C(3,i) times the i-th forward
+/// difference, along both axes.
 fn power(points: &[Point; 16], row: usize) -> Polynomial {
     let differences =
         |[a, b, c, d]: [i64; 4]| [a, 3 * (b - a), 3 * (c - 2 * b + a), d - 3 * c + 3 * b - a];
@@ -122,7 +126,8 @@ fn binomial(n: usize, k: usize) -> i128 {
     (0..k).fold(1, |c, i| c * (n - i) as i128 / (i as i128 + 1))
 }
 
-/// det[S, Su, Sv] at (u, v), by sampling: above 0 where the front faces the viewer. 0 where f64 cannot tell.
+/// det[S, Su, Sv] at (u, v), by sampling: above 0 where the front faces the viewer. 0 where f64
+/// cannot tell.
 #[must_use]
 pub fn facing(patch: &Patch, view: &View, u: f64, v: f64) -> f64 {
     let points = real(&patch.points);
@@ -133,7 +138,8 @@ pub fn facing(patch: &Patch, view: &View, u: f64, v: f64) -> f64 {
     let even = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(triple);
     let odd = [[2, 1, 0], [0, 2, 1], [1, 0, 2]].map(triple);
     let volume = even.iter().sum::<f64>() - odd.iter().sum::<f64>();
-    // Coordinates are wrong by a few ulps of the largest control point, derivatives by six times that.
+    // Coordinates are wrong by a few ulps of the largest control point, derivatives by six times
+    // that.
     let largest = points.iter().flatten().fold(0f64, |m, c| m.max(c.abs()));
     let noise = 1e-13 * largest * largest * largest;
     if volume.abs() <= noise {

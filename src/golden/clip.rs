@@ -1,7 +1,8 @@
 //! Clip: control points in, whether all are outside one plane out (Sfarti et al. 2005, section 3).
 //!
-//! Maximum form: a plane's function is linear, so its maximum over the hull, and over the surface, is attained at a
-//! control point; the patch is outside where that maximum is negative. Exact: coordinates have at most 48 bits.
+//! Maximum form: a plane's function is linear, so its maximum over the hull, and over the
+//! surface, is attained at a control point; the patch is outside where that maximum is negative.
+//! Exact: coordinates have at most 48 bits.
 
 use super::{Real, real};
 use rtl_model::patch::{Depth, Point};

@@ -1,5 +1,5 @@
-//! Control points: object space in, clip space out, in f64. The definition is clip = M p; the shader's f32 and its
-//! order of operations are what is to be compared with it.
+//! Control points: object space in, clip space out, in f64. The definition is clip = M p; the
+//! shader's f32 and its order of operations are what is to be compared with it.
 
 use super::Real;
 
@@ -17,7 +17,8 @@ pub fn concatenate(a: &[f64; 16], b: &[f64; 16]) -> [f64; 16] {
     std::array::from_fn(|k| columns[k / 4][k % 4])
 }
 
-/// The sum of the magnitudes that each coordinate of `m * p` is made of: what its rounding errors are relative to.
+/// The sum of the magnitudes that each coordinate of `m * p` is made of: what its rounding errors
+/// are relative to.
 #[must_use]
 pub fn magnitude(m: &[f64; 16], p: Real) -> Real {
     transform(&m.map(f64::abs), p.map(f64::abs))

@@ -1,4 +1,5 @@
-//! Emit: clip positions in, pixels out: the divide and the viewport as a textbook has them, in f64 and unrounded.
+//! Emit: clip positions in, pixels out: the divide and the viewport as a textbook has them, in
+//! f64 and unrounded.
 
 use super::Real;
 use rtl_model::patch::{Triangle, Vertex};

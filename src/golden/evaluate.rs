@@ -1,7 +1,9 @@
-//! Evaluate: control points and a parameter in, the point of the curve or surface out, and its tangents.
+//! Evaluate: control points and a parameter in, the point of the curve or surface out, and its
+//! tangents.
 //!
-//! The definition: S(u,v) = sum P_ij B_i(v) B_j(u) with the Bernstein polynomials of degree 3, summed in f64. Forward
-//! differences are to be compared at their exact parameter t = k R / 2^32, de Casteljau at the reported U1.16 one.
+//! The definition: S(u,v) = sum P_ij B_i(v) B_j(u) with the Bernstein polynomials of degree 3,
+//! summed in f64. Forward differences are to be compared at their exact parameter t = k R / 2^32,
+//! de Casteljau at the reported U1.16 one.
 
 use super::Real;
 

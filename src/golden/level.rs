@@ -1,9 +1,10 @@
-//! Level: control points in, the level of each edge and of the interior out, as real numbers of pixels give it.
+//! Level: control points in, the level of each edge and of the interior out, as real numbers of
+//! pixels give it.
 //!
-//! Closed formulas (LITERATURE of the second-derivative bound: Wang 1984; of the surface: Filip, Magedson, Markot
-//! 1986) in f64, from unrounded projections. A curve in n equal steps stays within 1/8 max|B''| / n^2 of its chords,
-//! B'' being 6 times a mix of the second differences; a surface in n by m within
-//! 1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2).
+//! Closed formulas (LITERATURE of the second-derivative bound: Wang 1984; of the surface: Filip,
+//! Magedson, Markot 1986) in f64, from unrounded projections. A curve in n equal steps stays
+//! within 1/8 max|B''| / n^2 of its chords, B'' being 6 times a mix of the second differences; a
+//! surface in n by m within 1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2).
 
 use rtl_model::patch::{EDGES, Point, View};
 
@@ -44,7 +45,8 @@ pub struct Bends {
     pub vv: f64,
 }
 
-/// Projects the points of a patch. A point nearer than the threshold, or too far outside, has no projection.
+/// Projects the points of a patch. A point nearer than the threshold, or too far outside, has no
+/// projection.
 #[must_use]
 pub fn project(points: &[Point; 16], view: &View) -> [Pixel; 16] {
     points.map(|p| {
@@ -116,7 +118,8 @@ pub fn surface(bends: Bends, [n, m]: [f64; 2], d: f64) -> [f64; 2] {
     [n * excess, m * excess]
 }
 
-/// The bound of a surface's distance from its triangles in n by m steps: 1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2).
+/// The bound of a surface's distance from its triangles in n by m steps: 1/8 (Muu/n^2 + 2 Muv/(n
+/// m) + Mvv/m^2).
 #[must_use]
 pub fn deviation(Bends { uu, uv, vv }: Bends, [n, m]: [f64; 2]) -> f64 {
     let (suu, suv, svv) = (6.0 * uu, 9.0 * uv, 6.0 * vv); // second derivatives of a bicubic

@@ -1,4 +1,5 @@
-//! Golden models: what each block is to compute, from its definition and by another algorithm than the hardware's.
+//! Golden models: what each block is to compute, from its definition and by another algorithm
+//! than the hardware's.
 //!
 //! ```text
 //!   control_point  f64 matrix product            level      the bounds, in real pixels
@@ -8,11 +9,12 @@
 //!   backface       power basis, 256 bits         emit       x / w in f64
 //! ```
 //!
-//! A golden model has the name of its block, `rtl_model/src/NAME.rs`. `tests/agreement` compares the two under one
-//! table of error budgets.
+//! A golden model has the name of its block, `rtl_model/src/NAME.rs`. `tests/agreement` compares
+//! the two under one table of error budgets.
 //!
-//! **Architecture invariant.** Nothing of `rtl_model` is imported but the tokens in `patch`, and the policy enums by
-//! way of `config`: a golden model that shared code with its block would agree with its mistakes.
+//! **Architecture invariant.** Nothing of `rtl_model` is imported but the tokens in `patch`, and
+//! the policy enums by way of `config`: a golden model that shared code with its block would
+//! agree with its mistakes.
 
 pub mod assemble;
 pub mod backface;

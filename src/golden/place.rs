@@ -1,8 +1,9 @@
 //! Place: levels in, the parameters of the vertices out, as exact fractions.
 //!
-//! Moreton 2001 by way of Munkberg et al. 2008, section 2. With f = level / 2 segments a half-edge: n = floor(f) steps
-//! of size 1 / level from either corner, then the midpoint. Below level 2, where the one step from a corner passes
-//! the midpoint, there is none: {0, 1 - 1/s, 1/s, 1}. The parameters form a set, so coinciding ones need no case.
+//! Moreton 2001 by way of Munkberg et al. 2008, section 2. With f = level / 2 segments a
+//! half-edge: n = floor(f) steps of size 1 / level from either corner, then the midpoint. Below
+//! level 2, where the one step from a corner passes the midpoint, there is none: {0, 1 - 1/s,
+//! 1/s, 1}. The parameters form a set, so coinciding ones need no case.
 
 use rtl_model::patch::{EDGES, Level, Levels};
 use std::cmp::Ordering;
@@ -48,7 +49,8 @@ impl Eq for Fraction {}
 pub struct Entry {
     /// Its parameter.
     pub parameter: Fraction,
-    /// The parameter at which a half-run evaluates it, exact: k R / 2^32 from its corner, R = floor(2^48 / level).
+    /// The parameter at which a half-run evaluates it, exact: k R / 2^32 from its corner, R =
+    /// floor(2^48 / level).
     pub run: f64,
     /// Steps k of that half-run; 0 at corners and centre, which need none.
     pub steps: u32,
@@ -104,7 +106,8 @@ pub struct Site {
     pub v: Entry,
 }
 
-/// Places the vertices of a patch. The interior has at least level min(m, 2), m the greatest of all levels.
+/// Places the vertices of a patch. The interior has at least level min(m, 2), m the greatest of
+/// all levels.
 #[must_use]
 pub fn place(levels: &Levels) -> Placed {
     let all = levels.edges.into_iter().chain(levels.interior);
@@ -124,7 +127,8 @@ pub fn place(levels: &Levels) -> Placed {
 }
 
 impl Placed {
-    /// The vertices by number: the boundary counter-clockwise from (0, 0), then the interior row by row.
+    /// The vertices by number: the boundary counter-clockwise from (0, 0), then the interior row
+    /// by row.
     #[must_use]
     pub fn sites(&self) -> Vec<Site> {
         let [zero, one] = [Fraction(0, 1), Fraction(1, 1)].map(|parameter| Entry {

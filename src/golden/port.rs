@@ -1,11 +1,12 @@
 //! Port: a real coordinate in, the integer that stands for it out (DESIGN: numbers along the way).
 //!
-//! The block shifts a mantissa; here the scaled number is rounded as a real. Every step is exact in f64: an f32 times
-//! a power of two keeps its 24 bits, and so do its floor and its remainder.
+//! The block shifts a mantissa; here the scaled number is rounded as a real. Every step is exact
+//! in f64: an f32 times a power of two keeps its 24 bits, and so do its floor and its remainder.
 
 use crate::config::{Overflow, Rounding};
 
-/// The integer nearest to `value * 2^fraction` in the sense of `rounding`, fitted to `width` bits, and whether it fits.
+/// The integer nearest to `value * 2^fraction` in the sense of `rounding`, fitted to `width`
+/// bits, and whether it fits.
 ///
 /// A NaN becomes 0, and infinities either end of the range or, wrapped, 0; none of them fits.
 #[must_use]

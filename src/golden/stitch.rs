@@ -1,9 +1,10 @@
 //! Stitch: places of vertices in, the triangles between them out, as a set.
 //!
-//! Moreton 2001, section 5.1, by its meaning rather than its registers: of the segments of two facing half-rows, the
-//! one whose midpoint comes first on the half-edge gets the next triangle, the inner one of two that tie. So all
-//! midpoints are sorted as exact fractions. Triangles are turned counter-clockwise by the sign of their area over
-//! row numbers, which no coincidence of parameters can make 0.
+//! Moreton 2001, section 5.1, by its meaning rather than its registers: of the segments of two
+//! facing half-rows, the one whose midpoint comes first on the half-edge gets the next triangle,
+//! the inner one of two that tie. So all midpoints are sorted as exact fractions. Triangles are
+//! turned counter-clockwise by the sign of their area over row numbers, which no coincidence of
+//! parameters can make 0.
 
 use super::place::{Entry, Fraction, Placed};
 
@@ -40,7 +41,8 @@ pub fn canonical(mut triangles: Vec<[usize; 3]>) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// Cells of the interior; each diagonal runs towards the centre, and so from (0, 0) to (1, 1) in a cell that holds it.
+/// Cells of the interior; each diagonal runs towards the centre, and so from (0, 0) to (1, 1) in
+/// a cell that holds it.
 fn grid(placed: &Placed, boundary: usize) -> Vec<[usize; 3]> {
     let columns = placed.columns.len();
     let corner = |i: usize, j: usize| Corner {
@@ -94,7 +96,7 @@ impl Side {
             (entry.parameter, corner(number % boundary, k, 0))
         });
         let (columns, rows) = (placed.columns.len(), placed.rows.len());
-        let list = if side % 2 == 0 { &placed.columns } else { &placed.rows };
+        let list = if side.is_multiple_of(2) { &placed.columns } else { &placed.rows };
         let inner = list.iter().enumerate().map(|(k, entry)| {
             let (i, j) = [(k, 0), (columns - 1, k), (k, rows - 1), (0, k)][side];
             (entry.parameter, corner(boundary + j * columns + i, k, 1))

@@ -184,7 +184,8 @@ fn corners(ledger: &mut Ledger, patch: &Patch, placement: &Placement, vertices: 
     assert_eq!(EDGES[2][3], 15, "v1 ends where u1 does");
 }
 
-/// The greatest difference of a coordinate, modulo 2^width: a value that wrapped is as good as one that did not.
+/// The greatest difference of a coordinate, modulo 2^width: a value that wrapped is as good as
+/// one that did not.
 fn distance(got: Real, want: Real, width: u32) -> f64 {
     let span = 2f64.powi(width as i32);
     let off = |k: usize| {

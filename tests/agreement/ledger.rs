@@ -1,5 +1,5 @@
-//! The one comparison: errors come in under a quantity, are held against its row, and the account is settled at the
-//! end. An exact row counts every difference as an error of 1.
+//! The one comparison: errors come in under a quantity, are held against its row, and the account
+//! is settled at the end. An exact row counts every difference as an error of 1.
 
 use super::table::{At, Quantity, Row, TABLE};
 
@@ -42,6 +42,7 @@ impl Ledger {
     }
 
     /// Takes in one item of an exact row.
+    #[allow(clippy::needless_pass_by_value, reason = "called as `assert_eq!` is")]
     pub(crate) fn equal<T: PartialEq + std::fmt::Debug>(
         &mut self,
         quantity: Quantity,
@@ -68,15 +69,11 @@ impl Ledger {
             let name = format!("{}: {}", row.block, row.what);
             let (error, budget) = tally.worst;
             let n = tally.compared;
-            match row.budget {
-                None => println!(
-                    "{name:<66} compared {n} items, {} differ, of budget 0",
-                    tally.failures
-                ),
-                Some(_) => println!(
-                    "{name:<66} compared {n} items, largest error {error:.4} of budget {budget:.4}"
-                ),
-            }
+            let result = match row.budget {
+                None => format!("{} differ, of budget 0", tally.failures),
+                Some(_) => format!("largest error {error:.4e} of budget {budget:.4e}"),
+            };
+            println!("{name:<66} compared {n} items, {result}");
             if n < row.floor {
                 wrong.push(format!("{name}: compared {n} items, expected {}", row.floor));
             }

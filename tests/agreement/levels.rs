@@ -1,5 +1,5 @@
-//! Level against its closed formulas: the block's roundings are bounded in pixels, and what they become in a level is
-//! found by putting the bounds through the formulas.
+//! Level against its closed formulas: the block's roundings are bounded in pixels, and what they
+//! become in a level is found by putting the bounds through the formulas.
 
 use super::ledger::Ledger;
 use super::table::{At, Quantity as Q};
@@ -7,8 +7,8 @@ use rtl_model::level::{self, Criterion, State};
 use rtl_model::patch::{EDGES, Levels, Patch, View};
 use tessim::golden::level::{self as golden, Bends, Pixel};
 
-/// How much too long the block takes a second or mixed difference, in 2^-16 px: 2 sqrt(2) for four halves of rounding
-/// in x and y, 1 for the root rounded up, 3 that it adds for safety.
+/// How much too long the block takes a second or mixed difference, in 2^-16 px: 2 sqrt(2) for
+/// four halves of rounding in x and y, 1 for the root rounded up, 3 that it adds for safety.
 const PIXELS_MOVED: f64 = 6.83;
 
 /// The same for a control polygon's three segments: sqrt(2) each for the ends, 1 for the root.
@@ -62,10 +62,10 @@ impl Case {
         let asked = golden::asked(&self.pixels, golden::Criterion::Flatness(d), self.range);
         let longer = |n: f64| (n * n + 0.75 * PIXELS_MOVED / ulps).sqrt();
         let most = asked.edges.map(|edge| edge.map(|n| longer(n) + 1.0 / ONE));
-        for k in 0..4 {
-            let got = f64::from(self.got.edges[k].fx16());
-            let want = self.granted(asked.edges[k]) * ONE;
-            let spread = self.granted(most[k]) * ONE - want;
+        for ((got, asked), most) in self.got.edges.iter().zip(asked.edges).zip(most) {
+            let got = f64::from(got.fx16());
+            let want = self.granted(asked) * ONE;
+            let spread = self.granted(most) * ONE - want;
             ledger.error(Q::LevelFlatEdge, &spread_of(spread), (got - want).abs());
             // f64 is sure of a level to 2^-40.
             ledger.equal(Q::LevelFlatEdgeShort, got < want - 1e-4, false);
@@ -115,8 +115,8 @@ impl Case {
             ledger.error(Q::LevelLength, &spread_of(spread), error);
         };
         let edges = asked.edges.map(|edge| self.granted(edge));
-        for k in 0..4 {
-            compare(self.got.edges[k], edges[k], asked.edges[k]);
+        for ((got, want), asked) in self.got.edges.iter().zip(edges).zip(asked.edges) {
+            compare(*got, want, asked);
         }
         for (axis, along) in [[edges[0], edges[2]], [edges[1], edges[3]]].into_iter().enumerate() {
             let want = self.inside(asked.interior[axis], along);

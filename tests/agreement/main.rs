@@ -1,5 +1,5 @@
-//! The hardware's blocks against their golden models: one comparison, over all blocks, under one table of error
-//! budgets (`table.rs`), on random inputs and on the shipped traces.
+//! The hardware's blocks against their golden models: one comparison, over all blocks, under one
+//! table of error budgets (`table.rs`), on random inputs and on the shipped traces.
 //!
 //! `TESSIM_LONG=1 cargo test --test agreement` draws twenty times as many samples.
 

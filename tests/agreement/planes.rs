@@ -1,5 +1,5 @@
-//! Tangent planes: the block works in clip space, the golden model crosses the derivatives of the surface before the
-//! transform; `M^T plane` must point along them.
+//! Tangent planes: the block works in clip space, the golden model crosses the derivatives of the
+//! surface before the transform; `M^T plane` must point along them.
 
 use super::ledger::Ledger;
 use super::table::{At, Quantity as Q};
@@ -7,7 +7,8 @@ use rtl_model::evaluate;
 use rtl_model::patch::Patch;
 use tessim::golden::{Real, control_point, evaluate as golden};
 
-/// By how many ulps each coordinate of S may be off: its control points by 1/2, six interpolations by 1/2 each.
+/// By how many ulps each coordinate of S may be off: its control points by 1/2, six
+/// interpolations by 1/2 each.
 const POINT_ULPS: f64 = 3.5;
 
 /// Su/3 and Sv/3 are differences of two points five interpolations deep.
@@ -19,7 +20,8 @@ const SHARE: f64 = 0.5;
 /// Directions that are known to less than this, in radians, tell nothing.
 const SPREAD_MAX: f64 = 0.1;
 
-/// A patch as it was before the transform `matrix` (column-major) to clip space, and `scale`, ulps a unit.
+/// A patch as it was before the transform `matrix` (column-major) to clip space, and `scale`,
+/// ulps a unit.
 pub(crate) struct Source<'a> {
     pub(crate) object: &'a [Real; 16],
     pub(crate) matrix: &'a [f64; 16],
@@ -48,7 +50,8 @@ pub(crate) fn plane(ledger: &mut Ledger, patch: &Patch, source: &Source<'_>, [u,
     ledger.error(Q::Plane, &At { spread, ..At::default() }, angle);
 }
 
-/// The angle that roundings of S, Su and Sv and of the plane's coefficients could turn the normal by.
+/// The angle that roundings of S, Su and Sv and of the plane's coefficients could turn the normal
+/// by.
 fn spread(source: &Source<'_>, [u, v]: [f64; 2], normal: f64) -> f64 {
     let clip = source.object.map(|p| control_point::transform(source.matrix, p));
     let clip = clip.map(|p| p.map(|c| c * source.scale));

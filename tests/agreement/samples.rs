@@ -1,4 +1,5 @@
-//! Samples: where the tokens come from. Seeds are constants, so a run always compares the same items.
+//! Samples: where the tokens come from. Seeds are constants, so a run always compares the same
+//! items.
 
 use super::blocks;
 use super::ledger::Ledger;

@@ -1,8 +1,10 @@
-//! The table of error budgets: one row for each quantity that a block makes, its budget as a formula, and why.
+//! The table of error budgets: one row for each quantity that a block makes, its budget as a
+//! formula, and why.
 //!
-//! A budget is a bound, so an error above it is a mistake somewhere. It is also a claim about how good the block is:
-//! if the largest error seen is below a quarter of it, the claim is too modest and fails too. Samples are seeded, so
-//! the largest error is the same on every machine; `TESSIM_LONG=1` draws more, which can only raise it.
+//! A budget is a bound, so an error above it is a mistake somewhere. It is also a claim about how
+//! good the block is: if the largest error seen is below a quarter of it, the claim is too modest
+//! and fails too. Samples are seeded, so the largest error is the same on every machine;
+//! `TESSIM_LONG=1` draws more, which can only raise it.
 
 use rtl_model::number::Rounding;
 
@@ -90,8 +92,8 @@ fn reference(at: &At) -> f64 {
     16.0 * 2f64.powi(at.width as i32 - 1 - 53)
 }
 
-/// The accumulator after n steps: D1, D2, D3 each off by half an ulp of 2^-guard, and h^3 truncated to 2^-64 under
-/// |a| <= 8 * 2^(W-1).
+/// The accumulator after n steps: D1, D2, D3 each off by half an ulp of 2^-guard, and h^3
+/// truncated to 2^-64 under |a| <= 8 * 2^(W-1).
 fn accumulator(at: &At, n: u32) -> f64 {
     let n = f64::from(n);
     let coefficients = (n + n * (n - 1.0) / 2.0 + n * (n - 1.0) * (n - 2.0) / 6.0) / 2.0;
@@ -145,54 +147,88 @@ use Quantity as Q;
 
 #[rustfmt::skip]
 pub(crate) const TABLE: &[Row] = &[
-    within(Q::Transform, "control_point", "coordinate, 2^-24 of its terms' magnitudes", 10_000, |_| 4.0,
+    within(Q::Transform, "control_point", "coordinate, 2^-24 of its terms' magnitudes", 10_000,
+        |_| 4.0,
         "one product and three sums in f32, each off by 2^-24 of a partial sum"),
-    exact(Q::PortValue, "port", "raw coordinate", 50_000, "rounded once, from an exact product"),
-    exact(Q::PortFits, "port", "coordinates that do not fit", 50_000, "a comparison of integers"),
-    exact(Q::AssemblePoints, "assemble", "indices of a patch", 400, "a decision"),
-    exact(Q::AssembleNew, "assemble", "points received", 400, "a decision"),
-    within(Q::AssembleHeld, "assemble", "edge entries above the points alive", 60, |_| 4.0,
-        "a store has its full length at once, and where the row and the column store cross, a point stands in both"),
-    exact(Q::ClipVerdict, "clip", "verdict", 2_000, "comparisons of integers"),
-    exact(Q::TangentCoefficients, "backface", "81 coefficients", 1_000, "256-bit integers"),
-    exact(Q::TangentVerdict, "backface", "tangent_plane verdict", 1_000, "exact wherever the estimate is not certain"),
-    exact(Q::FacetsVerdict, "backface", "net_facets verdict", 1_000, "exact volumes"),
+    exact(Q::PortValue, "port", "raw coordinate", 50_000,
+        "rounded once, from an exact product"),
+    exact(Q::PortFits, "port", "coordinates that do not fit", 50_000,
+        "a comparison of integers"),
+    exact(Q::AssemblePoints, "assemble", "indices of a patch", 400,
+        "a decision"),
+    exact(Q::AssembleNew, "assemble", "points received", 400,
+        "a decision"),
+    within(Q::AssembleHeld, "assemble", "edge entries above the points alive", 60,
+        |_| 4.0,
+        "a store has its full length at once, and where the row and the column store cross, a \
+         point stands in both"),
+    exact(Q::ClipVerdict, "clip", "verdict", 2_000,
+        "comparisons of integers"),
+    exact(Q::TangentCoefficients, "backface", "81 coefficients", 1_000,
+        "256-bit integers"),
+    exact(Q::TangentVerdict, "backface", "tangent_plane verdict", 1_000,
+        "exact wherever the estimate is not certain"),
+    exact(Q::FacetsVerdict, "backface", "net_facets verdict", 1_000,
+        "exact volumes"),
     exact(Q::FalseCulls, "backface", "samples of culled patches that face the viewer", 10_000,
         "no Bernstein coefficient above 0: no value above 0"),
-    exact(Q::LevelFixed, "level", "fixed levels", 500, "a clamp"),
-    exact(Q::LevelNear, "level", "edges without projection", 1_000, "comparisons of integers"),
-    within(Q::LevelFlatEdge, "level", "flatness, edge level, 2^-16", 1_000, |at| at.spread + 1.01,
-        "spread: a second difference is up to 6.83 / 65536 px too long (PIXELS_MOVED); then a root rounded up"),
+    exact(Q::LevelFixed, "level", "fixed levels", 500,
+        "a clamp"),
+    exact(Q::LevelNear, "level", "edges without projection", 1_000,
+        "comparisons of integers"),
+    within(Q::LevelFlatEdge, "level", "flatness, edge level, 2^-16", 1_000,
+        |at| at.spread + 1.01,
+        "spread: a second difference is up to 6.83 / 65536 px too long (PIXELS_MOVED); then a \
+         root rounded up"),
     exact(Q::LevelFlatEdgeShort, "level", "flatness, edge levels below the bound", 1_000,
         "every rounding is up, so that a bound stays a bound"),
-    within(Q::LevelFlatInterior, "level", "flatness, interior level, 2^-16", 500, |at| at.spread + 1.01,
-        "spread: the same through all three differences and the starting levels; then a root rounded up"),
-    within(Q::LevelDeviation, "level", "flatness, bound at the granted interior levels, tolerances", 500,
-        |_| 1.0 + 1e-9, "the criterion itself, where no level was cut to the greatest"),
-    within(Q::LevelLength, "level", "edge_length, level, 2^-16", 1_000, |at| at.spread + 1.01,
-        "spread: three segments, each rounded up once and off by sqrt(2) for its rounded ends, over `pixels`"),
-    exact(Q::PlaceCounts, "place", "numbers of entries and reciprocals", 1_000, "decisions"),
+    within(Q::LevelFlatInterior, "level", "flatness, interior level, 2^-16", 500,
+        |at| at.spread + 1.01,
+        "spread: the same through all three differences and the starting levels; then a root \
+         rounded up"),
+    within(Q::LevelDeviation, "level", "flatness, bound at the interior levels, tolerances", 500,
+        |_| 1.0 + 1e-9,
+        "the criterion itself, where no level was cut to the greatest"),
+    within(Q::LevelLength, "level", "edge_length, level, 2^-16", 1_000,
+        |at| at.spread + 1.01,
+        "spread: three segments, each rounded up once and off by sqrt(2) for its rounded ends, \
+         over `pixels`"),
+    exact(Q::PlaceCounts, "place", "numbers of entries and reciprocals", 1_000,
+        "decisions"),
     within(Q::PlaceParameter, "place", "parameter, U1.16 ulps", 100_000,
-        |at| 0.5 + f64::from(at.steps[0]) * 2f64.powi(-16), "rounded once; R is truncated, k R / 2^32 off by k 2^-32"),
-    within(Q::ForwardBoundary, "evaluate", "forward, boundary, ulps", 100_000, forward_curve,
+        |at| 0.5 + f64::from(at.steps[0]) * 2f64.powi(-16),
+        "rounded once; R is truncated, k R / 2^32 off by k 2^-32"),
+    within(Q::ForwardBoundary, "evaluate", "forward, boundary, ulps", 100_000,
+        forward_curve,
         "three coefficients rounded once, n steps; the output's rounding"),
-    within(Q::ForwardInterior, "evaluate", "forward, interior, ulps", 100_000, forward_surface,
+    within(Q::ForwardInterior, "evaluate", "forward, interior, ulps", 100_000,
+        forward_surface,
         "the same twice: a row's control points are convexly combined"),
-    within(Q::DriftBoundary, "evaluate", "of these, drift above rounding, boundary, ulps", 1_000, forward_curve,
+    within(Q::DriftBoundary, "evaluate", "of these, drift above rounding, boundary, ulps", 1_000,
+        forward_curve,
         "the same bound where the accumulator's part is the greater: few guard bits, many steps"),
-    within(Q::DriftInterior, "evaluate", "of these, drift above rounding, interior, ulps", 1_000, forward_surface,
+    within(Q::DriftInterior, "evaluate", "of these, drift above rounding, interior, ulps", 1_000,
+        forward_surface,
         "the same bound where the accumulators' part is the greater"),
-    within(Q::CasteljauBoundary, "evaluate", "de Casteljau, boundary, ulps", 10_000, casteljau_curve,
+    within(Q::CasteljauBoundary, "evaluate", "de Casteljau, boundary, ulps", 10_000,
+        casteljau_curve,
         "three interpolations deep, each rounded once and convex"),
-    within(Q::CasteljauInterior, "evaluate", "de Casteljau, interior, ulps", 100_000, casteljau_surface,
+    within(Q::CasteljauInterior, "evaluate", "de Casteljau, interior, ulps", 100_000,
+        casteljau_surface,
         "six deep"),
-    exact(Q::Corners, "evaluate", "corners", 4_000, "copied"),
-    within(Q::Plane, "evaluate", "normal of the tangent plane, radians", 2_000, |at| at.spread,
-        "spread: half of what S within 3.5 ulps, Su/3 and Sv/3 within 6 make of the wedge (that all twelve roundings \
-         conspire has not been seen), and coefficients of 31 bits"),
-    exact(Q::StitchTriangles, "stitch", "set of triangles", 1_000, "decisions"),
-    within(Q::EmitPixel, "emit", "screen coordinate, sub-pixel ulps", 100_000, |at| rounding(at) + 1e-6,
+    exact(Q::Corners, "evaluate", "corners", 4_000,
+        "copied"),
+    within(Q::Plane, "evaluate", "normal of the tangent plane, radians", 2_000,
+        |at| at.spread,
+        "spread: half of what S within 3.5 ulps, Su/3 and Sv/3 within 6 make of the wedge (that \
+         all twelve roundings conspire has not been seen), and coefficients of 31 bits"),
+    exact(Q::StitchTriangles, "stitch", "set of triangles", 1_000,
+        "decisions"),
+    within(Q::EmitPixel, "emit", "screen coordinate, sub-pixel ulps", 100_000,
+        |at| rounding(at) + 1e-6,
         "one quotient, rounded once; f64 within 2^-26"),
-    exact(Q::EmitDivided, "emit", "vertices divided", 100_000, "comparisons of integers"),
-    exact(Q::EmitDegenerate, "emit", "degenerate triangles", 1_000, "comparisons of integers"),
+    exact(Q::EmitDivided, "emit", "vertices divided", 100_000,
+        "comparisons of integers"),
+    exact(Q::EmitDegenerate, "emit", "degenerate triangles", 1_000,
+        "comparisons of integers"),
 ];

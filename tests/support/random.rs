@@ -1,5 +1,6 @@
-//! Random inputs: a seeded generator written out in full, so that the same samples are drawn for good, on every
-//! machine and with every version of every library; and patches of the kinds that break tessellators.
+//! Random inputs: a seeded generator written out in full, so that the same samples are drawn for
+//! good, on every machine and with every version of every library; and patches of the kinds that
+//! break tessellators.
 
 use rtl_model::patch::{Patch, Point};
 

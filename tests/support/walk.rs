@@ -1,5 +1,5 @@
-//! Walk: a shipped trace in, every patch that it draws out, as the unit gets it: the real reader, frame state,
-//! control-point shader and port; and beside it the same patch in real numbers.
+//! Walk: a shipped trace in, every patch that it draws out, as the unit gets it: the real reader,
+//! frame state, control-point shader and port; and beside it the same patch in real numbers.
 
 use glam::Mat4;
 use rtl_model::level::State;
