@@ -81,6 +81,8 @@ pub struct Cost {
 #[derive(Clone, Debug)]
 pub struct Evaluate {
     settings: Settings,
+    /// Whether an output of this patch might not fit.
+    checked: bool,
     /// Points of the curve that runs.
     curve: Vec<Point>,
     /// Control points of the interior rows.
@@ -91,17 +93,22 @@ impl Evaluate {
     /// A block of these settings.
     ///
     /// # Panics
-    /// When width + guard + 3 exceeds 63 bits.
+    /// When width + guard + 3 exceeds 63 bits, or guard is 0.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         let bits = settings.position.width + settings.guard + 3;
         assert!(bits <= 63, "an accumulator of {bits} bits does not fit 63");
-        Self { settings, curve: Vec::new(), rows: Vec::new() }
+        assert!(settings.guard >= 1, "an accumulator has guard bits");
+        Self { settings, checked: true, curve: Vec::new(), rows: Vec::new() }
     }
 
     /// Evaluates the vertices of a patch into `out`, in the order of the placement's numbering.
     pub fn accept(&mut self, patch: &Patch, placement: &Placement, out: &mut Vec<Vertex>) -> Cost {
         let Settings { rounding, overflow, .. } = self.settings;
+        // All curves lie in the hull of the control points, rows within one rounding error more: mostly all fits.
+        let largest = patch.points.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
+        let error = 2 * forward::error_max(self.settings.guard);
+        self.checked = largest > self.settings.position.max() - error;
         // Vertices of the patch before are overwritten, not cleared.
         out.resize(placement.vertices(), Vertex::default());
         dispatch(rounding, overflow, Work { block: self, points: &patch.points, placement, out })
@@ -206,11 +213,9 @@ impl Evaluate {
         };
         cost.curves += curves;
         cost.steps += steps;
-        // The curve lies in the hull of its points, and rounding adds a bounded error: mostly all fits unseen.
-        let largest = curve.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
-        if largest > position.max() - forward::error_max(guard) {
+        if self.checked {
             for c in self.curve.iter_mut().flatten() {
-                let (fitted, overflowed) = position.fit::<O>((*c).into());
+                let (fitted, overflowed) = position.fit::<O>(*c);
                 *c = fitted;
                 cost.overflows += u64::from(overflowed);
             }

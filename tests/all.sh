@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# Everything that can be checked: format, lints, tests, documentation, a run of the command, benches.
+#
+#   tests/all.sh                 about ten minutes on two cores
+#   tests/all.sh --long          the long campaigns too (TESSIM_LONG=1: tests scale their case counts)
+#   tests/all.sh --fuzz SECONDS  then fuzzes each target for that long
+#
+# Tests that cannot run here print a line with SKIPPED and why; they are listed at the end. With CI=true
+# they are failures.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+usage() {
+    sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    exit "$1"
+}
+
+fuzz_seconds=0
+while [ $# -gt 0 ]; do
+    case "$1" in
+        --long) export TESSIM_LONG=1 ;;
+        --fuzz)
+            fuzz_seconds="${2:-}"
+            [[ "$fuzz_seconds" =~ ^[1-9][0-9]*$ ]] || { echo "--fuzz takes seconds" >&2; exit 2; }
+            shift
+            ;;
+        -h | --help) usage 0 ;;
+        *) usage 2 >&2 ;;
+    esac
+    shift
+done
+
+log="$(mktemp)"
+trap 'rm -f "$log"' EXIT
+started=$SECONDS
+failed=()
+
+# A step runs to its end whatever became of the ones before: one run shows all that is wrong.
+step() {
+    local name="$1"
+    shift
+    echo "== $name"
+    if ! "$@" 2>&1 | tee -a "$log"; then
+        failed+=("$name")
+    fi
+}
+
+need() {
+    local tool="$1" how="$2"
+    command -v "$tool" >/dev/null && return
+    echo "missing: $tool; $how" >&2
+    exit 3
+}
+
+# Debian's C toolchain is all that is needed beside Rust: cargo links with cc. Installed where we may.
+if ! command -v cc >/dev/null && command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+    apt-get update -qq && apt-get install -y -qq --no-install-recommends gcc libc6-dev
+fi
+need cc "install a C compiler (Debian: gcc libc6-dev)"
+need cargo "install Rust 1.90 or newer from https://rustup.rs"
+need git "install git; a rule of tests/tidy.rs asks it for the tracked files"
+
+smoke() {
+    # The built command on a shipped trace; the table must come, and the counters with it.
+    local out
+    out="$(mktemp -d)"
+    cargo run --quiet --release -- run traces/teapot.jsonl --out "$out/result" --mesh ply
+    test -s "$out/result/counters.csv" && test -s "$out/result/mesh.ply"
+    rm -rf "$out"
+}
+
+fuzz() {
+    command -v cargo-fuzz >/dev/null || { echo "SKIPPED fuzz: no cargo-fuzz"; return; }
+    [ -f tests/fuzz/Cargo.toml ] || { echo "SKIPPED fuzz: no targets"; return; }
+    local target
+    for target in $(cargo fuzz list --fuzz-dir tests/fuzz); do
+        cargo +nightly fuzz run --fuzz-dir tests/fuzz "$target" -- \
+            -max_total_time="$fuzz_seconds" || return 1
+    done
+}
+
+step "format" cargo fmt --all --check
+step "lints" cargo clippy --workspace --all-targets --quiet -- -D warnings
+# Optimised: the comparisons with the definitions run millions of cases. Integer overflow stays checked.
+export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
+# --nocapture, or the reasons of skipped tests would not be seen.
+step "tests" cargo test --workspace --release --no-fail-fast --lib --bins --tests -- --nocapture
+step "documentation tests" cargo test --workspace --release --doc
+unset CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS
+step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
+step "a run" smoke
+step "benches build" cargo bench --workspace --no-run
+if [ "$fuzz_seconds" != 0 ]; then
+    step "fuzz" fuzz
+fi
+
+mapfile -t skipped < <(grep -a 'SKIPPED' "$log" | sort -u)
+if [ ${#skipped[@]} -gt 0 ]; then
+    echo "== skipped"
+    printf '%s\n' "${skipped[@]}"
+    if [ "${CI:-}" = true ]; then
+        failed+=("${#skipped[@]} skipped, which CI does not allow")
+    fi
+fi
+passed="$(grep -aoE '[0-9]+ passed' "$log" | awk '{ n += $1 } END { print n + 0 }')"
+took=$((SECONDS - started))
+if [ ${#failed[@]} -gt 0 ]; then
+    echo "FAILED after $took s: $(IFS=';'; echo "${failed[*]}") ($passed tests passed)"
+    exit 1
+fi
+echo "OK: $passed tests passed, ${#skipped[@]} skipped, $took s"
