@@ -157,6 +157,11 @@ pub(crate) fn evaluate(
             if forward && drifts(&at) {
                 ledger.error(Q::DriftBoundary, &at, error);
             }
+            if forward && entry.parameter == golden::place::Fraction::HALF {
+                // Exact in f64: at most 51 bits.
+                let centre = want.map(|c| golden::port::rounded(c, settings.rounding));
+                ledger.equal(Q::Centres, distance(got, centre, settings.position.width), 0.0);
+            }
         } else if !wraps {
             let forward = settings.scheme == Scheme::Forward;
             let [u, v] = if forward { [site.u.run, site.v.run] } else { reported };

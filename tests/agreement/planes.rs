@@ -15,7 +15,7 @@ const POINT_ULPS: f64 = 3.5;
 const TANGENT_ULPS: f64 = 6.0;
 
 /// The share of the worst case that the budget grants.
-const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.3;
 
 /// Directions that are known to less than this, in radians, tell nothing.
 const SPREAD_MAX: f64 = 0.1;

@@ -98,8 +98,11 @@ fn state(random: &mut Random) -> State {
 
 fn culling_and_levels(ledger: &mut Ledger, random: &mut Random, kind: Kind) {
     let width = random.integer(8, 48);
-    let view = view(random, width);
+    let mut view = view(random, width);
     let mut patch = patch(random, kind, view.position.max());
+    if random.bits() & 3 == 0 {
+        view.near = random.of(patch.points)[3].max(0); // a point exactly on the threshold
+    }
     patch.cull = random.integer(0, 15) > 0;
     patch.saturated = random.integer(0, 15) == 0;
     blocks::backface(ledger, &patch, &view);
@@ -130,9 +133,10 @@ fn settings(random: &mut Random) -> Settings {
 fn surface(ledger: &mut Ledger, random: &mut Random, kind: Kind) {
     let settings = settings(random);
     let patch = patch(random, kind, settings.position.max());
+    let most = random.of([Level::MAX, Level::MAX, Level::MAX, Level::clamped(131_071)]);
     let levels = Levels {
-        edges: [(); 4].map(|()| level(random)),
-        interior: [(); 2].map(|()| level(random)),
+        edges: [(); 4].map(|()| level(random).min(most)),
+        interior: [(); 2].map(|()| level(random).min(most)),
     };
     let view = view(random, settings.position.width);
     let emit =

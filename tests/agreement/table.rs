@@ -59,6 +59,7 @@ pub(crate) enum Quantity {
     CasteljauBoundary,
     CasteljauInterior,
     Corners,
+    Centres,
     Plane,
     StitchTriangles,
     EmitPixel,
@@ -218,9 +219,11 @@ pub(crate) const TABLE: &[Row] = &[
         "six deep"),
     exact(Q::Corners, "evaluate", "corners", 4_000,
         "copied"),
+    exact(Q::Centres, "evaluate", "forward, centres of edges", 3_000,
+        "one exact sum over 8, rounded once: also which way ties go"),
     within(Q::Plane, "evaluate", "normal of the tangent plane, radians", 2_000,
         |at| at.spread,
-        "spread: half of what S within 3.5 ulps, Su/3 and Sv/3 within 6 make of the wedge (that \
+        "spread: 3/10 of what S within 3.5 ulps, Su/3 and Sv/3 within 6 make of the wedge (that \
          all twelve roundings conspire has not been seen), and coefficients of 31 bits"),
     exact(Q::StitchTriangles, "stitch", "set of triangles", 1_000,
         "decisions"),

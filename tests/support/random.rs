@@ -83,15 +83,16 @@ pub(crate) fn patch(random: &mut Random, kind: Kind, max: i64) -> Patch {
         }
         Kind::EqualRows => points.copy_within(4..8, 8),
         Kind::Planar => points = points.map(|[x, y, _, _]| [x, y, 0.3, 0.9]),
-        Kind::EdgeOn => {
-            let (a, b) = (random.real(-0.7, 0.7), random.of([0.0, 0.25, 0.5]));
-            points = points
-                .map(|[x, _, z, w]| if a < 0.0 { [x, b * x, z, w] } else { [b * w, x, z, w] });
-        }
+        Kind::EdgeOn => points = points.map(|p| p.map(|_| random.real(-0.3, 0.3))),
         Kind::Tiny => points = points.map(|p| p.map(|c| 8.0 * c / max as f64)),
     }
     let raw = |c: f64| ((c * max as f64).round() as i64).clamp(-max, max);
-    let points: [Point; 16] = points.map(|p| p.map(raw));
+    let mut points: [Point; 16] = points.map(|p| p.map(raw));
+    if matches!(kind, Kind::EdgeOn) {
+        // In raw integers, so that the determinant is 0 exactly and no estimate of it is.
+        let k = random.of([-2, -1, 1, 2]);
+        points = points.map(|[x, y, z, _]| [x, y, z, x + k * y]);
+    }
     Patch { id: 0, points, saturated: false, cull: true, reversed: random.bits() & 1 == 0 }
 }
 
