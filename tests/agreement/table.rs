@@ -223,8 +223,8 @@ pub(crate) const TABLE: &[Row] = &[
         "one exact sum over 8, rounded once: also which way ties go"),
     within(Q::Plane, "evaluate", "normal of the tangent plane, radians", 2_000,
         |at| at.spread,
-        "spread: 3/10 of what S within 3.5 ulps, Su/3 and Sv/3 within 6 make of the wedge (that \
-         all twelve roundings conspire has not been seen), and coefficients of 31 bits"),
+        "spread: 2/5 of what S within 3.5 ulps, Su/3 and Sv/3 within 6, and coefficients of 31 \
+         bits make of the normal; that all these roundings conspire has not been seen"),
     exact(Q::StitchTriangles, "stitch", "set of triangles", 1_000,
         "decisions"),
     within(Q::EmitPixel, "emit", "screen coordinate, sub-pixel ulps", 100_000,
