@@ -1,5 +1,5 @@
-//! How fast a text trace is read: bytes a second over long lines of points, over draws with many instances, and over
-//! lines as short as the format has.
+//! How fast a text trace is read: bytes a second over long lines of points, over draws with many
+//! instances, and over lines as short as the format has.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -1,9 +1,12 @@
-//! Malformed traces and models: each must be refused at its place, in words that name what was found and expected.
+//! Malformed traces and models: each must be refused at its place, in words that name what was
+//! found and expected.
 
 #[path = "malformed/bpt.rs"]
 mod bpt;
 #[path = "malformed/files.rs"]
 mod files;
+#[path = "malformed/lines.rs"]
+mod lines;
 #[path = "malformed/text.rs"]
 mod text;
 

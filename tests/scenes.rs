@@ -1,4 +1,5 @@
-//! The traces that ship are what the scenes write, to the byte; every scene reads back as a whole trace.
+//! The traces that ship are what the scenes write, to the byte; every scene reads back as a whole
+//! trace.
 //!
 //! `UPDATE_EXPECT=1 cargo test --test scenes` writes the shipped traces anew.
 

@@ -5,9 +5,9 @@
 //! the band of +-32768 pixels that the format holds, stays homogeneous: the clipper must see it first.
 
 use crate::number::{
-    Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide, divide_narrow,
+    Divisor, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide,
 };
-use crate::patch::{Point, Triangle, Vertex, View};
+use crate::patch::{Triangle, Vertex, View};
 
 /// A vertex on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,10 +39,11 @@ pub fn accept(vertices: &[Vertex], view: &View, settings: Settings, out: &mut Ve
 #[must_use]
 pub fn degenerate(vertices: &[Vertex], triangles: &[Triangle]) -> u64 {
     let at = |k: u16| &vertices[usize::from(k)].position;
-    let equal = |a: &Point, b: &Point| a[0] == b[0] && a == b;
     let is_degenerate = |t: &&Triangle| {
         let (a, b, c) = (at(t[0]), at(t[1]), at(t[2]));
-        equal(a, b) || equal(b, c) || equal(c, a)
+        // Almost always x tells, without a branch a comparison.
+        let same_x = (a[0] == b[0]) | (b[0] == c[0]) | (c[0] == a[0]);
+        same_x && (a == b || b == c || c == a)
     };
     triangles.iter().filter(is_degenerate).count() as u64
 }
@@ -69,29 +70,86 @@ impl Modal for Work<'_> {
     }
 }
 
+/// A vertex on the screen, or nothing of it where the clipper must see it first.
 #[inline(always)]
 fn project<R: RoundingMode>(vertex: &Vertex, view: &View, subpixel_bits: u32) -> Screen {
     let [x, y, _, w] = vertex.position;
     if w <= 0 {
         return Screen::default();
     }
-    // (c + w) size 2^bits over 2 w: W + 1 + 14 + 12 bits over W + 1
-    let pixel = |c: i64, size: u32| {
-        let scale = i64::from(size) << subpixel_bits;
-        match c.checked_mul(scale) {
-            Some(scaled) => divide_narrow::<R>(scaled, 2 * w),
-            None => {
-                let wide = i128::from(c) * i128::from(scale);
-                divide::<R>(wide, i128::from(2 * w)).try_into().unwrap_or(i64::MAX)
-            }
-        }
+    // (c + w) size 2^bits over 2 w, W + 14 + bits over W bits
+    let band = 1_u64 << (15 + subpixel_bits);
+    let [width, height] = view.viewport.map(|size| i64::from(size) << subpixel_bits);
+    let [px, py] = if view.position.width + 16 + subpixel_bits <= 62 {
+        let divisor = Divisor::new(2 * w as u64);
+        let pixel = |c: i64, size: i64| divisor.divide::<R>(c * size, band);
+        [pixel(x + w, width), pixel(w - y, height)]
+    } else {
+        let pixel = |c: i64, size: i64| {
+            let quotient = divide::<R>(i128::from(c) * i128::from(size), i128::from(2 * w));
+            i64::try_from(quotient).unwrap_or(i64::MAX)
+        };
+        [pixel(x + w, width), pixel(w - y, height)]
     };
-    let (px, py) = (pixel(x + w, view.viewport[0]), pixel(w - y, view.viewport[1]));
-    let band = 1_i64 << (15 + subpixel_bits);
-    let inside = |p: i64| (-band..band).contains(&p);
+    let inside = |p: i64| p.wrapping_add(band as i64) as u64 <= 2 * band - 1;
     if inside(px) && inside(py) {
         Screen { x: px as i32, y: py as i32, divided: true }
     } else {
         Screen::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Format;
+    use crate::patch::Depth;
+    use proptest::prelude::*;
+
+    /// The definition in 128 bits, for any vertex.
+    fn direct(vertex: &Vertex, view: &View, bits: u32, rounding: Rounding) -> Screen {
+        let [x, y, _, w] = vertex.position.map(i128::from);
+        if w <= 0 {
+            return Screen::default();
+        }
+        let pixel = |n: i128| {
+            let (q, rest) = (n.div_euclid(2 * w), n.rem_euclid(2 * w));
+            let nearer_above = match rounding {
+                Rounding::Floor => false,
+                Rounding::NearestUp => rest >= w,
+                Rounding::NearestEven => rest > w || rest == w && q % 2 != 0,
+                Rounding::NearestAway => rest > w || rest == w && n > 0,
+            };
+            q + i128::from(nearer_above)
+        };
+        let [width, height] = view.viewport.map(|s| i128::from(s) << bits);
+        let (px, py) = (pixel((x + w) * width), pixel((w - y) * height));
+        let band = 1 << (15 + bits);
+        if [px, py].iter().all(|p| (-band..band).contains(p)) {
+            Screen { x: px as i32, y: py as i32, divided: true }
+        } else {
+            Screen::default()
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        #[test]
+        fn every_width_divides_as_the_definition_says(
+            width in 8u32..=48, bits in 0u32..=12, parts in prop::array::uniform3(-1f64..1.0),
+            small_w in 0u32..48, viewport in prop::array::uniform2(1u32..=16384), mode in 0usize..4,
+        ) {
+            let position = Format::of_range(width, 0);
+            let raw = parts.map(|p| (p * position.max() as f64) as i64);
+            let w = raw[2].abs() >> small_w.min(width - 2);
+            let vertex = Vertex { position: [raw[0], raw[1] >> 3, 0, w], u: 0, v: 0 };
+            let view = View { position, viewport, depth: Depth::ZeroToOne, near: 0, facing: 1 };
+            let rounding = Rounding::ALL[mode];
+            let mut out = Vec::new();
+            let settings = Settings { subpixel_bits: bits, rounding };
+            let homogeneous = accept(&[vertex], &view, settings, &mut out);
+            prop_assert_eq!(out[0], direct(&vertex, &view, bits, rounding));
+            prop_assert_eq!(homogeneous, u64::from(!out[0].divided));
+        }
     }
 }

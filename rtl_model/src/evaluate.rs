@@ -81,21 +81,44 @@ pub struct Cost {
 #[derive(Clone, Debug)]
 pub struct Evaluate {
     settings: Settings,
-    /// Points of the curve that runs.
+    /// Inner points of the edge or column that runs.
     curve: Vec<Point>,
     /// Control points of the interior rows.
     rows: Vec<[Point; 4]>,
+}
+
+/// Where a point is written: a place of its own, or a vertex's position.
+trait Slot {
+    fn point(&mut self) -> &mut Point;
+
+    #[inline(always)]
+    fn put(&mut self, point: Point) {
+        *self.point() = point;
+    }
+}
+
+impl Slot for Point {
+    fn point(&mut self) -> &mut Point {
+        self
+    }
+}
+
+impl Slot for Vertex {
+    fn point(&mut self) -> &mut Point {
+        &mut self.position
+    }
 }
 
 impl Evaluate {
     /// A block of these settings.
     ///
     /// # Panics
-    /// When width + guard + 3 exceeds 63 bits.
+    /// When width + guard + 3 exceeds 63 bits, or guard is 0.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         let bits = settings.position.width + settings.guard + 3;
         assert!(bits <= 63, "an accumulator of {bits} bits does not fit 63");
+        assert!(settings.guard >= 1, "an accumulator has guard bits");
         Self { settings, curve: Vec::new(), rows: Vec::new() }
     }
 
@@ -104,12 +127,17 @@ impl Evaluate {
         let Settings { rounding, overflow, .. } = self.settings;
         // Vertices of the patch before are overwritten, not cleared.
         out.resize(placement.vertices(), Vertex::default());
-        dispatch(rounding, overflow, Work { block: self, points: &patch.points, placement, out })
+        let runner = Runner::new(self.settings, &patch.points);
+        let Self { curve, rows, .. } = self;
+        let points = &patch.points;
+        dispatch(rounding, overflow, Work { runner, curve, rows, points, placement, out })
     }
 }
 
 struct Work<'a> {
-    block: &'a mut Evaluate,
+    runner: Runner,
+    curve: &'a mut Vec<Point>,
+    rows: &'a mut Vec<[Point; 4]>,
     points: &'a [Point; 16],
     placement: &'a Placement,
     out: &'a mut [Vertex],
@@ -125,7 +153,7 @@ impl Modal for Work<'_> {
         if columns > 0 && rows > 0 {
             // At level 1 there are two triangles and no interior.
             self.row_points::<R, O>(rows, &mut cost);
-            self.rows::<R, O>(columns, rows, &mut cost);
+            self.rows::<R, O>(columns, &mut cost);
         }
         cost
     }
@@ -134,13 +162,15 @@ impl Modal for Work<'_> {
 impl Work<'_> {
     /// The four edges, each a function of its own points alone.
     fn boundary<R: RoundingMode, O: OverflowMode>(&mut self, cost: &mut Cost) {
-        let Self { block, points, placement, out } = self;
+        let Self { runner, curve: inner, points, placement, out, .. } = self;
         let starts = placement.starts();
-        let forward = block.settings.scheme != Scheme::DeCasteljau;
+        let forward = runner.settings.scheme != Scheme::DeCasteljau;
         for (edge, list) in placement.edges.iter().enumerate() {
             let curve = EDGES[edge].map(|k| points[k]);
-            block.run::<R, O>(&curve, list, forward, cost);
-            for (k, (&position, &t)) in block.curve.iter().zip(list.parameters()).enumerate() {
+            inner.resize(list.segments() - 1, [0; 4]);
+            runner.run::<R, O, _>(&curve, list, forward, inner, cost);
+            let positions = [&curve[..1], inner, &curve[3..]].into_iter().flatten();
+            for (k, (&position, &t)) in positions.zip(list.parameters()).enumerate() {
                 let [u, v] = [[t, 0], [ONE, t], [t, ONE], [0, t]][edge];
                 out[placement.boundary_vertex(&starts, edge, k)] = Vertex { position, u, v };
             }
@@ -150,13 +180,14 @@ impl Work<'_> {
 
     /// The control points of the interior rows: points of the net's columns.
     fn row_points<R: RoundingMode, O: OverflowMode>(&mut self, rows: usize, cost: &mut Cost) {
-        let Self { block, points, placement, .. } = self;
-        let forward = block.settings.scheme == Scheme::Forward;
-        block.rows.resize(rows, [[0; 4]; 4]);
+        let Self { runner, curve: inner, points, placement, .. } = self;
+        let forward = runner.settings.scheme == Scheme::Forward;
+        inner.resize(rows, [0; 4]);
+        self.rows.resize(rows, [[0; 4]; 4]);
         for column in 0..4 {
             let curve = [0, 4, 8, 12].map(|row| points[row + column]);
-            block.run::<R, O>(&curve, &placement.v, forward, cost);
-            for (row, &point) in block.rows.iter_mut().zip(&block.curve[1..]) {
+            runner.run::<R, O, _>(&curve, &placement.v, forward, inner, cost);
+            for (row, &point) in self.rows.iter_mut().zip(inner.iter()) {
                 row[column] = point;
             }
         }
@@ -164,53 +195,57 @@ impl Work<'_> {
     }
 
     /// The interior, row by row.
-    fn rows<R: RoundingMode, O: OverflowMode>(
-        &mut self,
-        columns: usize,
-        rows: usize,
-        cost: &mut Cost,
-    ) {
-        let Self { block, placement, out, .. } = self;
-        let forward = block.settings.scheme == Scheme::Forward;
-        let (us, vs) = (placement.u.parameters(), placement.v.parameters());
+    fn rows<R: RoundingMode, O: OverflowMode>(&mut self, columns: usize, cost: &mut Cost) {
+        let Self { runner, rows, placement, out, .. } = self;
+        let forward = runner.settings.scheme == Scheme::Forward;
+        let (us, vs) = (&placement.u.parameters()[1..], &placement.v.parameters()[1..]);
         let interior = &mut out[placement.boundary()..];
-        for (row, vertices) in interior.chunks_exact_mut(columns).enumerate() {
-            let curve = block.rows[row];
-            block.run::<R, O>(&curve, &placement.u, forward, cost);
-            let v = vs[row + 1];
-            for ((vertex, &position), &u) in
-                vertices.iter_mut().zip(&block.curve[1..]).zip(&us[1..])
-            {
-                *vertex = Vertex { position, u, v };
+        for ((vertices, curve), &v) in interior.chunks_exact_mut(columns).zip(rows.iter()).zip(vs) {
+            runner.run::<R, O, _>(curve, &placement.u, forward, vertices, cost);
+            for (vertex, &u) in vertices.iter_mut().zip(us) {
+                [vertex.u, vertex.v] = [u, v];
             }
         }
-        cost.invocations += (columns * rows) as u64;
+        cost.invocations += (columns * rows.len()) as u64;
     }
 }
 
-impl Evaluate {
-    /// Evaluates a curve at all entries of a list into `self.curve`.
-    fn run<R: RoundingMode, O: OverflowMode>(
-        &mut self,
+/// Runs one curve after another.
+struct Runner {
+    settings: Settings,
+    /// Whether an output of this patch might not fit.
+    checked: bool,
+}
+
+impl Runner {
+    fn new(settings: Settings, points: &[Point; 16]) -> Self {
+        // All curves lie in the hull of the control points, rows within one rounding error more: mostly all fits.
+        let largest = points.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
+        let error = 2 * forward::error_max(settings.guard);
+        Self { settings, checked: largest > settings.position.max() - error }
+    }
+
+    /// Evaluates a curve at the inner entries of a list.
+    #[inline(always)]
+    fn run<R: RoundingMode, O: OverflowMode, S: Slot>(
+        &self,
         curve: &[Point; 4],
         list: &List,
         forward: bool,
+        out: &mut [S],
         cost: &mut Cost,
     ) {
         let Settings { position, guard, .. } = self.settings;
-        self.curve.resize(list.segments() + 1, [0; 4]);
         let (curves, steps) = if forward {
-            forward::run::<R>(curve, list, guard, &mut self.curve)
+            forward::run::<R, S>(curve, list, guard, out)
         } else {
-            casteljau::run::<R>(curve, list, &mut self.curve)
+            casteljau::run::<R, S>(curve, list, out)
         };
         cost.curves += curves;
         cost.steps += steps;
-        // The curve lies in the hull of its points, and rounding adds a bounded error: mostly all fits unseen.
-        let largest = curve.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
-        if largest > position.max() - forward::error_max(guard) {
-            for c in self.curve.iter_mut().flatten() {
-                let (fitted, overflowed) = position.fit::<O>((*c).into());
+        if self.checked {
+            for c in out.iter_mut().flat_map(|slot| slot.point()) {
+                let (fitted, overflowed) = position.fit::<O>(*c);
                 *c = fitted;
                 cost.overflows += u64::from(overflowed);
             }

@@ -21,15 +21,16 @@ pub struct Quantised {
 ///
 /// A NaN (a transform that overflowed) becomes 0 and counts as a coordinate that did not fit.
 #[must_use]
+#[inline]
 pub fn accept<R: RoundingMode, O: OverflowMode>(bits: [u32; 4], format: Format) -> Quantised {
-    let mut overflows = 0;
-    let point = bits.map(|bits| {
+    let mut quantised = Quantised { point: [0; 4], overflows: 0 };
+    for (raw, bits) in quantised.point.iter_mut().zip(bits) {
         let exact = from_f32_bits::<R>(bits, format.fraction);
-        let (raw, overflowed) = format.fit::<O>(exact.unwrap_or(0));
-        overflows += u32::from(overflowed || exact.is_none());
-        raw
-    });
-    Quantised { point, overflows }
+        let (fitted, overflowed) = format.fit::<O>(exact.unwrap_or(0));
+        *raw = fitted;
+        quantised.overflows += u32::from(overflowed || exact.is_none());
+    }
+    quantised
 }
 
 #[cfg(test)]

@@ -63,6 +63,7 @@ impl Iterator for Walk {
 /// Appends the triangles of a patch to `out`.
 pub fn accept(placement: &Placement, out: &mut Vec<Triangle>) {
     let stitcher = Stitcher::new(placement);
+    out.reserve(2 * placement.vertices());
     if stitcher.columns * stitcher.rows == 0 {
         out.extend([[0, 1, 2], [0, 2, 3]]); // every level is 1
         return;
@@ -95,16 +96,18 @@ impl<'a> Stitcher<'a> {
 
     /// The cells of the interior.
     fn grid(&self, out: &mut Vec<Triangle>) {
+        let (cells, width) = (self.columns - 1, self.columns as u16);
         for j in 0..self.rows - 1 {
-            for i in 0..self.columns - 1 {
-                let a = self.interior(i, j);
-                let (b, d) = (a + 1, a + self.columns as u16);
-                let c = d + 1;
-                if (2 * i < self.columns - 1) == (2 * j < self.rows - 1) {
-                    out.extend([[a, b, c], [a, c, d]]);
-                } else {
-                    out.extend([[a, b, d], [b, c, d]]);
-                }
+            let start = out.len();
+            out.resize(start + 2 * cells, [0; 3]);
+            let first = self.interior(0, j);
+            for (i, pair) in out[start..].chunks_exact_mut(2).enumerate() {
+                let a = first + i as u16;
+                let [b, c, d] = [a + 1, a + 1 + width, a + width];
+                let towards_centre = (2 * i < cells) == (2 * j < self.rows - 1);
+                let triangles =
+                    if towards_centre { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+                pair.copy_from_slice(&triangles);
             }
         }
     }
@@ -112,50 +115,91 @@ impl<'a> Stitcher<'a> {
     /// One side: two half-stitches, and the segment across the centre where there is one.
     fn side(&self, side: usize, out: &mut Vec<Triangle>) {
         let edge = &self.placement.edges[side];
-        let along = if side % 2 == 0 { self.columns } else { self.rows };
         let outer_half = edge.half_segments();
-        let inner_half = if self.below_two { 0 } else { (along - 1) / 2 };
-        let outer = |end: usize, k: usize| {
-            let k = if end == 0 { k } else { edge.segments() - k };
-            self.placement.boundary_vertex(&self.starts, side, k) as u16
-        };
-        let inner = |end: usize, k: usize| {
-            let k = if end == 0 { k } else { along - 1 - k };
-            match side {
-                0 => self.interior(k, 0),
-                1 => self.interior(self.columns - 1, k),
-                2 => self.interior(k, self.rows - 1),
-                _ => self.interior(0, k),
-            }
-        };
-        let mut triangle = |a: u16, b: u16, c: u16, end: usize| {
-            out.push(if (side >= 2) != (end == 1) { [a, c, b] } else { [a, b, c] });
-        };
+        let inner_half = if self.below_two { 0 } else { (self.along(side) - 1) / 2 };
         for end in 0..2 {
+            let (outer, inner) = (self.outer(side, end), self.inner(side, end));
+            let mirrored = (side >= 2) != (end == 1);
             let (mut i, mut o) = (0, 0);
             for step in Walk::new(outer_half, inner_half) {
-                match step {
+                let [a, b, c] = match step {
                     Side::Inner => {
-                        triangle(inner(end, i), outer(end, o), inner(end, i + 1), end);
                         i += 1;
+                        [inner.at(i - 1), outer.at(o), inner.at(i)]
                     }
                     Side::Outer => {
-                        triangle(outer(end, o), outer(end, o + 1), inner(end, i), end);
                         o += 1;
+                        [outer.at(o - 1), outer.at(o), inner.at(i)]
                     }
-                }
+                };
+                out.push(if mirrored { [a, c, b] } else { [a, b, c] });
             }
         }
         if edge.crosses_centre() {
-            // The diagonal starts at the end that lies at (0, 0) or (1, 1).
-            let end = usize::from(side == 1 || side == 2);
-            let (first, last) = (outer(end, outer_half), outer(1 - end, outer_half));
-            if self.below_two {
-                triangle(inner(end, 0), first, inner(1 - end, 0), end);
-                triangle(first, last, inner(1 - end, 0), end);
-            } else {
-                triangle(first, last, inner(end, inner_half), end);
-            }
+            self.across(side, outer_half, inner_half, out);
         }
+    }
+
+    /// The segment across the centre. Its diagonal starts at the end that lies at (0, 0) or (1, 1).
+    fn across(&self, side: usize, outer: usize, inner: usize, out: &mut Vec<Triangle>) {
+        let end = usize::from(side == 1 || side == 2);
+        let first = self.outer(side, end).at(outer as i32);
+        let last = self.outer(side, 1 - end).at(outer as i32);
+        let mirrored = (side >= 2) != (end == 1);
+        let mut push = |a, b, c| out.push(if mirrored { [a, c, b] } else { [a, b, c] });
+        if self.below_two {
+            let (near, far) = (self.inner(side, end).at(0), self.inner(side, 1 - end).at(0));
+            push(near, first, far);
+            push(first, last, far);
+        } else {
+            push(first, last, self.inner(side, end).at(inner as i32));
+        }
+    }
+
+    /// Interior vertices along a side.
+    fn along(&self, side: usize) -> usize {
+        if side & 1 == 0 { self.columns } else { self.rows }
+    }
+
+    /// The boundary vertices of a side, from one of its ends.
+    fn outer(&self, side: usize, end: usize) -> Row {
+        // v1 and u0 run against the numbering, which ends where it began: at vertex 0.
+        let end_of_all = self.starts[4] as i32;
+        if (side < 2) == (end == 0) {
+            Row { first: self.starts[side] as i32, step: 1, end_of_all }
+        } else {
+            Row { first: self.starts[side + 1] as i32, step: -1, end_of_all }
+        }
+    }
+
+    /// The interior's vertices along a side, from one of its ends.
+    fn inner(&self, side: usize, end: usize) -> Row {
+        let (columns, rows) = (self.columns - 1, self.rows - 1);
+        let from = [(0, 0), (columns, 0), (0, rows), (0, 0)][side];
+        let to = [(columns, 0), (columns, rows), (columns, rows), (0, rows)][side];
+        let (column, row) = if end == 0 { from } else { to };
+        let step = if side & 1 == 0 { 1 } else { self.columns as i32 };
+        Row {
+            first: self.interior(column, row).into(),
+            step: if end == 0 { step } else { -step },
+            end_of_all: i32::MAX,
+        }
+    }
+}
+
+/// Vertices at equal distances in the numbering.
+#[derive(Clone, Copy)]
+struct Row {
+    first: i32,
+    step: i32,
+    /// The number after the last, which is vertex 0 again.
+    end_of_all: i32,
+}
+
+impl Row {
+    #[inline(always)]
+    fn at(self, k: i32) -> u16 {
+        let vertex = self.first + k * self.step;
+        if vertex == self.end_of_all { 0 } else { vertex as u16 }
     }
 }

@@ -1,7 +1,8 @@
-//! The commands of a trace, checked and ready to be carried out: what the readers make and the units consume.
+//! The commands of a trace, checked and ready to be carried out: what the readers make and the
+//! units consume.
 //!
-//! Matrices are column-major, points column vectors, clip = projection * view * model * p. Sizes and ids are
-//! checked by the reader: a unit may rely on every invariant stated here.
+//! Matrices are column-major, points column vectors, clip = projection * view * model * p. Sizes
+//! and ids are checked by the reader: a unit may rely on every invariant stated here.
 
 use rtl_model::level::Criterion;
 use rtl_model::patch::Depth;
@@ -54,7 +55,8 @@ pub struct Frame {
     pub range: Range,
 }
 
-/// The largest magnitude a coordinate is expected to have: powers of two, or `None` where it is to be derived.
+/// The largest magnitude a coordinate is expected to have: powers of two, or `None` where it is to
+/// be derived.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Range {
     /// In clip space: log2.
@@ -86,7 +88,8 @@ pub struct Tessellation {
 }
 
 impl Default for Tessellation {
-    /// What holds before the first tessellation command: flatness within half a pixel, levels from 1 to 64.
+    /// What holds before the first tessellation command: flatness within half a pixel, levels from
+    /// 1 to 64.
     fn default() -> Self {
         let criterion = Criterion::Flatness { pixels: 1 << 15 };
         Self { criterion, min_level: 1 << 16, max_level: 64 << 16 }

@@ -1,4 +1,5 @@
-//! Draw: the text of a draw in, the draw out, checked against the frame and the points that came before.
+//! Draw: the text of a draw in, the draw out, checked against the frame and the points that came
+//! before.
 
 use super::command::{Command, Draw, Primitive};
 use super::field::{Object, choice, flag, integer, integer32, matrix};

@@ -1,8 +1,9 @@
 //! Fast: long `points` lines, nearly all the bytes of a large trace, read in one pass.
 //!
-//! [`super::parse`] takes a line apart by its raw values, which costs three passes over its numbers and tells exactly what is
-//! wrong with it. Here `serde_json` goes straight from digits to coordinates. What is accepted here means the same
-//! there; what is refused here, for whatever reason, is left to the other to accept or explain.
+//! [`super::parse`] takes a line apart by its raw values, which costs three passes over its numbers
+//! and tells exactly what is wrong with it. Here `serde_json` goes straight from digits to
+//! coordinates. What is accepted here means the same there; what is refused here, for whatever
+//! reason, is left to the other to accept or explain.
 
 use super::command::{Command, Points};
 use super::points::PointSource;
@@ -105,5 +106,63 @@ impl<'de, const N: usize> Visitor<'de> for RowVisitor<N> {
         }
         // One number more than a point has is an error of `serde_json` when the array is closed.
         Ok(Row(row))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse;
+    use super::super::state::State;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn slow(line: &str) -> Option<Command> {
+        parse::command(line, &mut State::new(".".into())).ok()
+    }
+
+    /// Numbers and what is nearly one, as text.
+    fn number() -> impl Strategy<Value = String> {
+        prop_oneof![
+            8 => any::<f32>().prop_map(|n| format!("{n:e}")),
+            8 => any::<f64>().prop_map(|n| format!("{n:e}")),
+            8 => (-99i32..99).prop_map(|n| n.to_string()),
+            1 => "(null|\"1\"|1e39|-0|1e-60|01|[1])",
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn the_fast_way_and_the_thorough_one_agree(
+            rows in prop::collection::vec(prop::collection::vec(number(), 3..=4), 1..4),
+            name in "(xyz|xyzw)",
+            rest in r#"(|,"resident":(true|null)|,"(id|count)":1|} |,"xyz":null)"#,
+        ) {
+            let rows: Vec<_> = rows.iter().map(|r| format!("[{}]", r.join(","))).collect();
+            let line = format!(r#"{{"points":{{"id":0,"{name}":[{}]{rest}}}}}"#, rows.join(","));
+            prop_assert_eq!(points(&line), slow(&line), "{}", line);
+        }
+    }
+
+    #[test]
+    fn a_plain_line_goes_the_fast_way() {
+        let line = r#"{"points":{"id":3,"xyzw":[[1,-2.5,3e4,0.1],[0,0,0,1]],"resident":true}}"#;
+        assert!(points(line).is_some());
+        assert_eq!(points(line), slow(line));
+    }
+
+    #[test]
+    fn what_is_out_of_the_ordinary_does_not() {
+        for line in [
+            r#"{"points":{"id":3,"xyz":[]}}"#,
+            r#"{"points":{"id":3,"xyz":null,"xyzw":[[0,0,0,1]]}}"#,
+            r#"{"points":{"id":3,"xyzw":[[0,0,0,0]]}}"#,
+            r#"{"points":{"id":3,"file":"a","layout":"xyz","count":1}}"#,
+            r#"{"points":{"id":3,"xyz":[[0,0,1e39]]}}"#,
+            r#"{"points":{"id":3,"xyz":[[0,0,1]]},"end":{}}"#,
+        ] {
+            assert_eq!(points(line), None, "{line}");
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! Fields: located values in, numbers, choices and matrices out, each refused in words that say what was expected.
+//! Fields: located values in, numbers, choices and matrices out, each refused in words that say
+//! what was expected.
 
 use super::json::{Found, Value};
 use glam::DMat4;
@@ -171,7 +172,8 @@ pub(crate) fn matrix(value: Value<'_>) -> Found<[f32; 16]> {
     Ok(matrix)
 }
 
-/// A matrix that has an inverse: the determinant and the inverse are those of its numbers in 64 bits.
+/// A matrix that has an inverse: the determinant and the inverse are those of its numbers in 64
+/// bits.
 pub(crate) fn invertible(value: Value<'_>) -> Found<[f32; 16]> {
     let matrix = matrix(value)?;
     let wide = DMat4::from_cols_array(&matrix.map(f64::from));

@@ -1,9 +1,10 @@
 //! Import: a model of bicubic Bézier patches as a BPT file in, a trace of one frame out.
 //!
-//! BPT is the plain text in which Newell's models are passed round: the number of patches, then for each patch its
-//! degrees, `3 3`, and 16 points `x y z`. Its points are row-major, as a trace's are, so they keep their order. It
-//! has no camera: the frame looks at the middle of the bounding box from the front, a bit from the right and above,
-//! with z up, from where all of the model is seen.
+//! BPT is the plain text in which Newell's models are passed round: the number of patches, then for
+//! each patch its degrees, `3 3`, and 16 points `x y z`. Its points are row-major, as a trace's
+//! are, so they keep their order. It has no camera: the frame looks at the middle of the bounding
+//! box from the front, a bit from the right and above, with z up, from where all of the model is
+//! seen.
 
 use super::command::{Command, Draw, Header, IDENTITY, Points, Primitive, Tessellation};
 use super::json::snippet;

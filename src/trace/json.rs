@@ -1,9 +1,11 @@
-//! Located JSON: the text of a line in, values that know their byte offset out, and faults that name their place.
+//! Located JSON: the text of a line in, values that know their byte offset out, and faults that
+//! name their place.
 //!
-//! `serde_json` does all the parsing. A value is taken as its raw text (`RawValue`), which borrows from the line, so
-//! that its offset is known without a parser of our own. Only what is looked at is parsed further. A fault carries
-//! an offset and no path: the path is found from the offset ([`path_at`]) when a fault is shown, so that reading
-//! a good trace never builds one.
+//! `serde_json` does all the parsing. A value is taken as its raw text (`RawValue`), which borrows
+//! from the line, so that its offset is known without a parser of our own. Only what is looked at
+//! is parsed further.
+//! A fault carries an offset and no path: the path is found from the offset ([`path_at`]) when a
+//! fault is shown, so that reading a good trace never builds one.
 
 use serde::Deserializer as _;
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
@@ -121,7 +123,9 @@ impl<'a> Value<'a> {
             let message = format!("not JSON: the line ends inside {inside}");
             return Fault { offset: self.offset + self.text.len(), message, has_path: false };
         }
-        let mut at = error.column().saturating_sub(1).min(self.text.len());
+        // It counts the bytes before a control character, but up to any other byte that is wrong.
+        let counted = usize::from(!reason.starts_with("control character"));
+        let mut at = error.column().saturating_sub(counted).min(self.text.len());
         while !self.text.is_char_boundary(at) {
             at -= 1;
         }
@@ -134,6 +138,9 @@ impl<'a> Value<'a> {
         let message = match reason {
             "trailing characters" => {
                 format!("found `{found}` after the command, expected the end of the line")
+            }
+            "expected value" if rest.starts_with([']', '}', ',']) => {
+                format!("not JSON: found `{}`, expected a value", &rest[..1])
             }
             "expected value" => {
                 format!("not JSON: found `{found}`, expected a value (JSON has no NaN or infinity)")
@@ -215,7 +222,8 @@ fn cut(text: &str, chars_max: usize) -> Cow<'_, str> {
     }
 }
 
-/// The path of the field at a byte of the line, such as `points.xyz[3][1]`; empty for the line itself.
+/// The path of the field at a byte of the line, such as `points.xyz[3][1]`; empty for the line
+/// itself.
 pub(crate) fn path_at(line: &str, offset: usize) -> String {
     const NAME_CHARS_MAX: usize = 40;
     let mut path = String::new();

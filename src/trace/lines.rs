@@ -1,5 +1,5 @@
-//! Lines: bytes in, one line at a time out, hashed on the way. One buffer serves all lines, and a line that is too long
-//! is refused while it is being read, before the rest of it is.
+//! Lines: bytes in, one line at a time out, hashed on the way. One buffer serves all lines, and a
+//! line that is too long is refused while it is being read, before the rest of it is.
 
 use sha2::{Digest, Sha256};
 use std::io::{self, BufRead};

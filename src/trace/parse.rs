@@ -1,6 +1,8 @@
-//! Parse: the text of a line in, a checked command out. One function a command, in the order of the format.
+//! Parse: the text of a line in, a checked command out. One function a command, in the order of the
+//! format.
 //!
-//! Numbers that a unit compares with others are quantised here, once: pixels to UQ16.16, levels to UQ8.16, both to nearest-even.
+//! Numbers that a unit compares with others are quantised here, once: pixels to UQ16.16, levels to
+//! UQ8.16, both to nearest-even.
 
 use super::command::{Command, Frame, Header, Points, Range, Tessellation};
 use super::draw;
@@ -60,8 +62,8 @@ pub(crate) fn command(line: &str, state: &mut State) -> Found<Command> {
     }
 }
 
-/// The first entry of the line's object, and its only one unless `several` are allowed. Reads all of the line,
-/// so that what follows need not care for its syntax.
+/// The first entry of the line's object, and its only one unless `several` are allowed. Reads all
+/// of the line, so that what follows need not care for its syntax.
 fn only_entry(line: &str, several: bool) -> Found<(Value<'_>, Value<'_>)> {
     let whole = Value::line(line);
     let mut entry = None;

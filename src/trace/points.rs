@@ -1,8 +1,9 @@
 //! Points: where the control points of an id live, inline or in a file, and a range of them out.
 //!
-//! A file of points is raw little-endian f32, 3 or 4 a point, without a head. It is never read whole, so a trace of a
-//! million patches needs no more memory than one that draws a teapot. Its name is relative to the trace's
-//! folder and may not lead out of it: a trace from elsewhere must not be able to name any file it likes.
+//! A file of points is raw little-endian f32, 3 or 4 a point, without a head. It is never read
+//! whole, so a trace of a million patches needs no more memory than one that draws a teapot. Its
+//! name is relative to the trace's folder and may not lead out of it: a trace from elsewhere must
+//! not be able to name any file it likes.
 
 use crate::error::{Error, Place, Result};
 use sha2::{Digest, Sha256};
@@ -11,7 +12,8 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
-/// Control points, checked: coordinates are finite and weights above 0. A file's are checked as they are read.
+/// Control points, checked: coordinates are finite and weights above 0. A file's are checked as
+/// they are read.
 #[derive(Debug, PartialEq)]
 pub enum PointSource {
     /// Points in the trace, weight 1.
@@ -49,11 +51,12 @@ impl PointSource {
         }
     }
 
-    /// Replaces `out` by the `count` points from `first` on, points without a weight getting weight 1.
+    /// Replaces `out` by the `count` points from `first` on, points without a weight getting weight
+    /// 1.
     ///
     /// # Errors
-    /// A file that has become shorter or unreadable, or that holds a non-finite number or a weight that is not
-    /// above 0.
+    /// A file that has become shorter or unreadable, or that holds a non-finite number or a weight
+    /// that is not above 0.
     ///
     /// # Panics
     /// When the range goes beyond [`Self::len`]; a reader has checked that no draw does.
@@ -121,8 +124,8 @@ impl DataFile {
     /// Finds the file `name` in `folder`.
     ///
     /// # Errors
-    /// In words that follow "expected": the name is absolute or leads out of the folder, even by a symbolic link,
-    /// or there is no such regular file.
+    /// In words that follow "expected": the name is absolute or leads out of the folder, even by a
+    /// symbolic link, or there is no such regular file.
     pub(crate) fn find(folder: &Path, name: &str) -> Result<Self, String> {
         let within = |c| matches!(c, Component::Normal(_) | Component::CurDir);
         if name.is_empty() || !Path::new(name).components().all(within) {
@@ -224,7 +227,8 @@ impl PointFile {
         let components = self.layout.components() as usize;
         let mut byte = first * 4 * components as u64;
         let mut open = self.open.lock().unwrap_or_else(|poisoned| {
-            poisoned.into_inner() // only a panic elsewhere can do that; the position is set anew below
+            // Only a panic elsewhere can do that; the position is set anew below.
+            poisoned.into_inner()
         });
         open.seek(byte).map_err(|e| self.unreadable(e))?;
         out.reserve(count);

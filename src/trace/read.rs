@@ -1,8 +1,9 @@
 //! Read: the bytes of a text trace in, its commands out, one at a time.
 //!
-//! The format is JSON Lines (`traces/README.md`). A trace is checked as it streams, so memory holds one line and the size of
-//! each id's points, however long the trace is. After an error the reader is at its end; a trace that breaks off is
-//! an error too, so that whoever got all commands without one has got the whole trace.
+//! The format is JSON Lines (`traces/README.md`). A trace is checked as it streams, so memory holds
+//! one line and the size of each id's points, however long the trace is. After an error the reader
+//! is at its end; a trace that breaks off is an error too, so that whoever got all commands without
+//! one has got the whole trace.
 
 use super::command::Command;
 use super::fast;
@@ -44,8 +45,8 @@ enum Phase {
 }
 
 impl Reader<Box<dyn BufRead + Send>> {
-    /// Opens the trace at `path`, or standard input for `-`. Data files are looked for in the trace's folder; for
-    /// standard input, in the current one.
+    /// Opens the trace at `path`, or standard input for `-`. Data files are looked for in the
+    /// trace's folder; for standard input, in the current one.
     ///
     /// # Errors
     /// A file that cannot be opened.
@@ -76,7 +77,8 @@ impl<R: BufRead> Reader<R> {
         }
     }
 
-    /// SHA-256 of the bytes read so far, in hexadecimal: of the whole trace once [`Command::End`] has been returned.
+    /// SHA-256 of the bytes read so far, in hexadecimal: of the whole trace once [`Command::End`]
+    /// has been returned.
     #[must_use]
     pub fn hash(&self) -> String {
         self.lines.hash()
@@ -168,7 +170,8 @@ impl<R: BufRead> Reader<R> {
     fn too_long(&self) -> Error {
         let message = format!(
             "found a line of more than {} MiB, expected less; put large points into a file of \
-             their own: {{\"points\":{{\"id\":0,\"file\":\"NAME\",\"layout\":\"xyz\",\"count\":N}}}}",
+             their own: {{\"points\":{{\"id\":0,\"file\":\"NAME\",\"layout\":\"xyz\",\
+             \"count\":N}}}}",
             LINE_BYTES_MAX >> 20
         );
         self.error(0, message)

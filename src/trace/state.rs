@@ -1,5 +1,5 @@
-//! State: what a reader remembers of the commands before, so that a draw can be checked against them. Ids last across
-//! frames, and a known id is replaced.
+//! State: what a reader remembers of the commands before, so that a draw can be checked against
+//! them. Ids last across frames, and a known id is replaced.
 
 use super::command::Command;
 use super::points::DataFile;

@@ -1,6 +1,7 @@
 //! Write: commands in, the text of a trace out, which reads back as the same commands.
 //!
-//! Numbers are the shortest decimals that read back as the same bits. The writer checks nothing: the reader does.
+//! Numbers are the shortest decimals that read back as the same bits. The writer checks nothing:
+//! the reader does.
 
 use super::command::{Command, Draw, Frame, Header, Points, Primitive, Range, Tessellation};
 use super::points::PointSource;

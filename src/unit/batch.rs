@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::emit::Screen;
 use rtl_model::level::State;
-use rtl_model::number::{Modal, OverflowMode, RoundingMode, dispatch};
+use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
 use rtl_model::patch::{Patch, Triangle, Vertex};
 use rtl_model::port::{self, Quantised};
 use std::ops::Range;
@@ -80,6 +80,7 @@ struct Span {
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
     points: Vec<[f32; 4]>,
+    quantised: Vec<Quantised>,
     spans: Vec<Span>,
     patches: Vec<Pending>,
     draws: Vec<DrawState>,
@@ -129,8 +130,8 @@ impl Batch {
         sink: Option<&mut dyn Sink>,
         counters: &mut Counters,
     ) -> Result<Vec<Tally>> {
-        let quantised = self.quantise(config, frame, counters);
-        let work = Work { batch: self, quantised: &quantised, config, frame };
+        self.quantise(config, frame, counters);
+        let work = Work { batch: self, config, frame };
         let tallies = match sink {
             None => work.count(counters),
             Some(sink) => work.stream(sink, counters)?,
@@ -143,60 +144,58 @@ impl Batch {
     }
 
     /// Control-point shader and port, on all threads.
-    fn quantise(
-        &self,
-        config: &Config,
-        frame: &FrameState,
-        counters: &mut Counters,
-    ) -> Vec<Quantised> {
-        let pieces: Vec<(&Mat4, &[[f32; 4]])> = self
-            .spans
-            .iter()
-            .flat_map(|span| {
-                let points = self.points[span.points.clone()].chunks(POINT_GRAIN);
-                points.map(|points| (&span.clip_from_object, points))
-            })
-            .collect();
-        let piece = |(matrix, points): &(&Mat4, &[[f32; 4]])| {
-            let format = frame.view.position;
-            let work = PortWork { matrix, points, format };
-            dispatch(config.position.rounding, config.position.overflow, work)
-        };
-        let quantised: Vec<Quantised> = pieces.par_iter().flat_map_iter(piece).collect();
+    fn quantise(&mut self, config: &Config, frame: &FrameState, counters: &mut Counters) {
+        let blank = Quantised { point: [0; 4], overflows: 0 };
+        self.quantised.resize(self.points.len(), blank);
+        let mut rest = &mut self.quantised[..];
+        let mut pieces = Vec::new();
         for span in &self.spans {
-            let received = &quantised[span.points.start + span.repeated..span.points.end];
+            let (out, after) = rest.split_at_mut(span.points.len());
+            rest = after;
+            let points = self.points[span.points.clone()].chunks(POINT_GRAIN);
+            let format = frame.view.position;
+            let matrix = &span.clip_from_object;
+            pieces.extend(points.zip(out.chunks_mut(POINT_GRAIN)).map(|(points, out)| PortWork {
+                matrix,
+                points,
+                format,
+                out,
+            }));
+        }
+        let (rounding, overflow) = (config.position.rounding, config.position.overflow);
+        pieces.into_par_iter().for_each(|work| dispatch(rounding, overflow, work));
+        for span in &self.spans {
+            let received = &self.quantised[span.points.start + span.repeated..span.points.end];
             let overflows = received.iter().map(|q| u64::from(q.overflows)).sum();
             let saturated = received.iter().filter(|q| q.overflows > 0).count() as u64;
             counters.add(Counter::PortPoints, received.len() as u64);
             counters.add(Counter::PortOverflows, overflows);
             counters.add(Counter::PortSaturated, saturated);
         }
-        quantised
     }
 }
 
 struct PortWork<'a> {
     matrix: &'a Mat4,
     points: &'a [[f32; 4]],
-    format: rtl_model::number::Format,
+    format: Format,
+    out: &'a mut [Quantised],
 }
 
 impl Modal for PortWork<'_> {
-    type Output = Vec<Quantised>;
+    type Output = ();
 
-    fn run<R: RoundingMode, O: OverflowMode>(self) -> Vec<Quantised> {
-        let quantise = |&point| {
+    fn run<R: RoundingMode, O: OverflowMode>(self) {
+        for (out, &point) in self.out.iter_mut().zip(self.points) {
             let clip = control_point::transform(self.matrix, point);
-            port::accept::<R, O>(clip.map(f32::to_bits), self.format)
-        };
-        self.points.iter().map(quantise).collect()
+            *out = port::accept::<R, O>(clip.map(f32::to_bits), self.format);
+        }
     }
 }
 
-/// A batch with its quantised points.
+/// A batch whose points are quantised.
 struct Work<'a> {
     batch: &'a Batch,
-    quantised: &'a [Quantised],
     config: &'a Config,
     frame: &'a FrameState,
 }
@@ -225,7 +224,10 @@ impl Work<'_> {
     /// Counters only.
     fn count(&self, counters: &mut Counters) -> Vec<Tally> {
         let all = &self.batch.patches;
-        let parts: Vec<Pieces> = all.par_chunks(GRAIN).map(|part| self.run(part, false)).collect();
+        let parts: Vec<Pieces> = all
+            .par_chunks(GRAIN)
+            .map_init(|| self.pipeline(), |p, part| self.run(p, part, false))
+            .collect();
         let mut tallies = Vec::new();
         for part in parts {
             part.account(counters, &mut tallies);
@@ -237,8 +239,10 @@ impl Work<'_> {
     fn stream(&self, sink: &mut dyn Sink, counters: &mut Counters) -> Result<Vec<Tally>> {
         let mut tallies = Vec::new();
         for wave in self.batch.patches.chunks(WAVE) {
-            let parts: Vec<Pieces> =
-                wave.par_chunks(GRAIN).map(|part| self.run(part, true)).collect();
+            let parts: Vec<Pieces> = wave
+                .par_chunks(GRAIN)
+                .map_init(|| self.pipeline(), |p, part| self.run(p, part, true))
+                .collect();
             for part in parts {
                 part.send(sink)?;
                 part.account(counters, &mut tallies);
@@ -247,24 +251,27 @@ impl Work<'_> {
         Ok(tallies)
     }
 
-    fn run(&self, patches: &[Pending], keep: bool) -> Pieces {
-        let mut pipeline = Pipeline::new(self.config, self.frame.view);
+    fn pipeline(&self) -> Pipeline<'_> {
+        Pipeline::new(self.config, self.frame.view)
+    }
+
+    fn run(&self, pipeline: &mut Pipeline<'_>, patches: &[Pending], keep: bool) -> Pieces {
         let mut pieces = Pieces::default();
         for pending in patches {
             let draw = &self.batch.draws[pending.draw as usize];
             if pipeline.accept(&self.gather(pending, draw), &draw.state) {
-                pieces.tally(draw.number, &pipeline);
+                pieces.tally(draw.number, pipeline);
                 if keep {
                     pieces.keep(pending.id, draw.reversed, &pipeline);
                 }
             }
         }
-        pieces.counters = pipeline.counters;
+        pieces.counters = std::mem::take(&mut pipeline.counters);
         pieces
     }
 
     fn gather(&self, pending: &Pending, draw: &DrawState) -> Patch {
-        let points = pending.indices.map(|i| self.quantised[i as usize]);
+        let points = pending.indices.map(|i| self.batch.quantised[i as usize]);
         Patch {
             id: pending.id,
             points: points.map(|q| q.point),

@@ -130,6 +130,8 @@ fn facing(clip_from_world: DMat4, depth: Depth) -> i64 {
 mod tests {
     use super::*;
     use glam::Vec3;
+    use glam::camera::rh::proj::{directx, opengl};
+    use glam::camera::rh::view::look_at_mat4;
 
     fn state(projection: Mat4, view: Mat4, depth: Depth) -> FrameState {
         let frame = Frame {
@@ -147,15 +149,15 @@ mod tests {
     fn the_side_of_su_cross_sv_is_the_front_under_every_kind_of_camera() {
         let flip_x = Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0));
         let cameras = [
-            (Mat4::perspective_rh(1.0, 1.5, 1.0, 20.0), Depth::ZeroToOne),
-            (Mat4::perspective_rh_gl(1.0, 1.5, 1.0, 20.0), Depth::MinusOneToOne),
-            (Mat4::perspective_rh(1.0, 1.5, 20.0, 1.0), Depth::ZeroToOne), // reversed depth
-            (Mat4::orthographic_rh(-2.0, 2.0, -2.0, 2.0, 1.0, 20.0), Depth::ZeroToOne),
-            (flip_x * Mat4::perspective_rh(1.0, 1.5, 1.0, 20.0), Depth::ZeroToOne),
+            (directx::perspective(1.0, 1.5, 1.0, 20.0), Depth::ZeroToOne),
+            (opengl::perspective(1.0, 1.5, 1.0, 20.0), Depth::MinusOneToOne),
+            (directx::perspective(1.0, 1.5, 20.0, 1.0), Depth::ZeroToOne), // reversed depth
+            (directx::orthographic(-2.0, 2.0, -2.0, 2.0, 1.0, 20.0), Depth::ZeroToOne),
+            (flip_x * directx::perspective(1.0, 1.5, 1.0, 20.0), Depth::ZeroToOne),
         ];
         for (projection, depth) in cameras {
             for (eye, front) in [(Vec3::Z * 5.0, 1), (-Vec3::Z * 5.0, -1)] {
-                let view = Mat4::look_at_rh(eye, Vec3::ZERO, Vec3::Y);
+                let view = look_at_mat4(eye, Vec3::ZERO, Vec3::Y);
                 let state = state(projection, view, depth);
                 let m = (projection * view).as_dmat4();
                 let [s, su, sv] = [DVec4::W, DVec4::X, DVec4::Y].map(|p| m * p);
@@ -169,7 +171,7 @@ mod tests {
     #[test]
     fn the_range_is_the_far_plane_and_the_threshold_the_near_plane() {
         for (far, log2) in [(0.5, 0), (16.0, 4), (16.1, 5), (100.0, 7)] {
-            let projection = Mat4::perspective_rh(1.0, 1.0, 0.25, far);
+            let projection = directx::perspective(1.0, 1.0, 0.25, far);
             let view = state(projection, Mat4::IDENTITY, Depth::ZeroToOne).view;
             assert_eq!(view.position.fraction, 31 - log2, "far {far}");
             let near = view.near as f64 / f64::from(view.position.fraction).exp2();
@@ -178,7 +180,7 @@ mod tests {
         let frame = Frame {
             viewport: [640, 480],
             view: Mat4::IDENTITY.to_cols_array(),
-            projection: Mat4::perspective_infinite_rh(1.0, 1.0, 0.25).to_cols_array(),
+            projection: directx::perspective_infinite(1.0, 1.0, 0.25).to_cols_array(),
             depth: Depth::ZeroToOne,
             range: Default::default(),
         };

@@ -50,7 +50,6 @@ impl<'a> Pipeline<'a> {
 
     /// Takes a patch through all blocks. Returns whether anything is left of it.
     pub fn accept(&mut self, patch: &Patch, state: &level::State) -> bool {
-        self.vertices.clear();
         self.screen.clear();
         self.triangles.clear();
         self.keeps(patch) && {

@@ -9,10 +9,10 @@ use crate::link::{self, Transfer};
 use crate::report::Report;
 use crate::shader::control_point;
 use crate::sink::{FrameInfo, Sink};
-use crate::trace::command::{Command, Draw, Frame, Points, Primitive};
+use crate::trace::command::{Command, Draw, Frame, Points, Primitive, Tessellation};
 use glam::Mat4;
 use rtl_model::counter::{Counter, Counters};
-use rtl_model::level::{Criterion, State};
+use rtl_model::level::State;
 use rtl_model::patch::Level;
 use std::collections::HashMap;
 
@@ -40,12 +40,11 @@ pub(super) struct Run<'a> {
 
 impl<'a> Run<'a> {
     pub(super) fn new(config: &'a Config, sink: &'a mut dyn Sink) -> Self {
-        let flatness = Criterion::Flatness { pixels: 1 << 15 };
         Self {
             config,
             sink,
             points: HashMap::new(),
-            state: State { criterion: flatness, min: Level::MIN, max: Level::clamped(64 << 16) },
+            state: state(&Tessellation::default()),
             frame: None,
             patches: 0,
             draws: Vec::new(),
@@ -74,9 +73,7 @@ impl<'a> Run<'a> {
                 Ok(())
             }
             Command::Tessellation(t) => {
-                let level = |fx16: u32| Level::clamped(fx16.into());
-                let (min, max) = (level(t.min_level), level(t.max_level));
-                self.state = State { criterion: t.criterion, min, max };
+                self.state = state(t);
                 Ok(())
             }
             Command::Draw(draw) => self.draw(link::patches(command), draw),
@@ -260,6 +257,13 @@ impl<'a> Run<'a> {
         }
         Ok(())
     }
+}
+
+/// The tessellation state that a command sets.
+fn state(command: &Tessellation) -> State {
+    let level = |fx16: u32| Level::clamped(fx16.into());
+    let (min, max) = (level(command.min_level), level(command.max_level));
+    State { criterion: command.criterion, min, max }
 }
 
 /// Patches of one instance that are drawn together.

@@ -1,4 +1,5 @@
-//! Traces whose points are in files: names that lead elsewhere, files that are missing, short or wrong.
+//! Traces whose points are in files: names that lead elsewhere, files that are missing, short or
+//! wrong.
 
 use super::{Case, check};
 use std::path::Path;
@@ -73,7 +74,7 @@ fn sizes_and_fields() {
         (
             "count of 0",
             r#""file":"p.f32","layout":"xyz","count":0"#,
-            58,
+            57,
             &["points.count: found 0"],
         ),
         (

@@ -48,24 +48,45 @@ fn none_positive<T: Wide>(coefficients: &[[T; 9]; 9]) -> bool {
 /// The exact coefficients, row k along v, column l along u, times C(8,k) C(8,l) / 9.
 #[must_use]
 pub fn coefficients<T: Wide>(points: &[Row<i64>; 16]) -> [[T; 9]; 9] {
-    let (s, su, sv) = factors(points);
-    let of = |row: Row<i64>| row.map(T::of);
-    determinant(&s.map(of), &su.map(of), &sv.map(of))
+    Factors::of(points).weighted().determinant()
 }
 
-/// S, Su / 3 and Sv / 3 in Bernstein form with the binomials multiplied in: 4 x 4, 4 x 3 and 3 x 4, row-major.
-fn factors(points: &[Row<i64>; 16]) -> ([Row<i64>; 16], [Row<i64>; 12], [Row<i64>; 12]) {
-    let s = std::array::from_fn(|k| times(points[k], BINOMIAL_3[k / 4] * BINOMIAL_3[k % 4]));
-    let su = std::array::from_fn(|k| {
-        let (i, j) = (k / 3, k % 3);
-        let difference = minus(points[4 * i + j + 1], points[4 * i + j]);
-        times(difference, BINOMIAL_3[i] * BINOMIAL_2[j])
-    });
-    let sv = std::array::from_fn(|k| {
-        let (i, j) = (k / 4, k % 4);
-        times(minus(points[k + 4], points[k]), BINOMIAL_2[i] * BINOMIAL_3[j])
-    });
-    (s, su, sv)
+/// S, Su / 3 and Sv / 3 in Bernstein form: 4 x 4, 4 x 3 and 3 x 4 coefficients, row-major.
+#[derive(Clone, Copy)]
+struct Factors {
+    s: [Row<i64>; 16],
+    su: [Row<i64>; 12],
+    sv: [Row<i64>; 12],
+}
+
+impl Factors {
+    fn of(points: &[Row<i64>; 16]) -> Self {
+        let su = |k: usize| {
+            let left = 4 * (k / 3) + k % 3;
+            minus(points[left + 1], points[left])
+        };
+        let sv = |k: usize| minus(points[k + 4], points[k]);
+        Self { s: *points, su: std::array::from_fn(su), sv: std::array::from_fn(sv) }
+    }
+
+    /// With the binomials multiplied in.
+    fn weighted(mut self) -> Self {
+        for (k, p) in self.s.iter_mut().enumerate() {
+            *p = times(*p, BINOMIAL_3[k / 4] * BINOMIAL_3[k % 4]);
+        }
+        for (k, p) in self.su.iter_mut().enumerate() {
+            *p = times(*p, BINOMIAL_3[k / 3] * BINOMIAL_2[k % 3]);
+        }
+        for (k, p) in self.sv.iter_mut().enumerate() {
+            *p = times(*p, BINOMIAL_2[k / 4] * BINOMIAL_3[k % 4]);
+        }
+        self
+    }
+
+    fn determinant<T: Wide>(&self) -> [[T; 9]; 9] {
+        let of = |row: Row<i64>| row.map(T::of);
+        determinant(&self.s.map(of), &self.su.map(of), &self.sv.map(of))
+    }
 }
 
 /// S . (Su x Sv) as convolutions.
@@ -103,23 +124,11 @@ fn faces_at_a_corner(points: &[Row<i64>; 16]) -> bool {
 
 /// The verdict where 15 bits suffice for it.
 fn estimate(points: &[Row<i64>; 16]) -> Option<bool> {
-    // The binomials are multiplied in after the truncation: 15 bits hold a control point, not its multiple.
-    let mut s = *points;
-    let mut su: [Row<i64>; 12] = std::array::from_fn(|k| {
-        minus(points[4 * (k / 3) + k % 3 + 1], points[4 * (k / 3) + k % 3])
-    });
-    let mut sv: [Row<i64>; 12] = std::array::from_fn(|k| minus(points[k + 4], points[k]));
-    let (ms, mu, mv) = (truncate(&mut s), truncate(&mut su), truncate(&mut sv));
-    for (k, p) in s.iter_mut().enumerate() {
-        *p = times(*p, BINOMIAL_3[k / 4] * BINOMIAL_3[k % 4]);
-    }
-    for (k, p) in su.iter_mut().enumerate() {
-        *p = times(*p, BINOMIAL_3[k / 3] * BINOMIAL_2[k % 3]);
-    }
-    for (k, p) in sv.iter_mut().enumerate() {
-        *p = times(*p, BINOMIAL_2[k / 4] * BINOMIAL_3[k % 4]);
-    }
-    let estimates = determinant(&s, &su, &sv);
+    // Truncated before the binomials are multiplied in: 15 bits hold a control point, not its multiple.
+    let mut factors = Factors::of(points);
+    let ms = truncate(&mut factors.s);
+    let (mu, mv) = (truncate(&mut factors.su), truncate(&mut factors.sv));
+    let estimates: [[i64; 9]; 9] = factors.weighted().determinant();
     // Truncation moves each factor by less than one: (s+1)(u+1)(v+1) - suv for each of the six products of a 3 x 3
     // determinant. Binomial weights of a coefficient add up to C(8,k) C(8,l).
     let slack = 6 * (mu * mv + ms * mv + ms * mu + ms + mu + mv + 1);

@@ -5,6 +5,8 @@ use crate::number::{RoundingMode, lerp};
 use crate::patch::Point;
 use crate::place::List;
 
+use super::Slot;
+
 /// The point of a cubic at `t` (U1.16): six interpolations of a vec4.
 #[must_use]
 pub fn curve_point<R: RoundingMode>(curve: &[Point; 4], t: u32) -> Point {
@@ -20,16 +22,14 @@ pub(super) fn triangle<R: RoundingMode>([a, b, c, d]: &[Point; 4], t: u32) -> [P
     [abc, bcd, mix(&abc, &bcd)]
 }
 
-/// Evaluates the list's entries; `out` has one for each. Returns half-runs (none) and points evaluated.
-pub(super) fn run<R: RoundingMode>(
+/// Evaluates the list's inner entries; `out` has a place for each. Returns half-runs (none) and points evaluated.
+pub(super) fn run<R: RoundingMode, S: Slot>(
     curve: &[Point; 4],
     list: &List,
-    out: &mut [Point],
+    out: &mut [S],
 ) -> (u64, u64) {
-    let segments = list.segments();
-    for (point, &t) in out.iter_mut().zip(list.parameters()) {
-        *point = curve_point::<R>(curve, t);
+    for (slot, &t) in out.iter_mut().zip(&list.parameters()[1..]) {
+        slot.put(curve_point::<R>(curve, t));
     }
-    (out[0], out[segments]) = (curve[0], curve[3]);
-    (0, segments as u64 - 1)
+    (0, out.len() as u64)
 }

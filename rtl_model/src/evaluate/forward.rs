@@ -14,7 +14,8 @@
 //! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run from the other end
 //! is the same on B3..B0, for which a changes its sign only. So a reversed edge gives the same bits.
 
-use crate::number::{RoundingMode, shift_right};
+use super::Slot;
+use crate::number::{Rounding, RoundingMode, shift_right};
 use crate::patch::{Level, Point};
 use crate::place::List;
 
@@ -29,13 +30,17 @@ pub(super) fn error_max(guard: u32) -> i64 {
     (ULPS >> guard) + 2
 }
 
-/// Difference registers, x y z w each, `guard` fraction bits below the position's.
+/// What D0 is kept above its value, so that it is never negative and a logical shift rounds it: vectors of 64-bit
+/// integers have no arithmetic one. Even after the shift, so parity is kept.
+const OFFSET: u64 = 1 << 61;
+
+/// Difference registers, x y z w each, `guard` fraction bits below the position's; D0 with its offset.
 #[derive(Clone, Copy)]
 struct Registers {
-    d0: Point,
-    d1: Point,
-    d2: Point,
-    d3: Point,
+    d0: [u64; 4],
+    d1: [u64; 4],
+    d2: [u64; 4],
+    d3: [u64; 4],
 }
 
 impl Registers {
@@ -48,50 +53,62 @@ impl Registers {
         }
     }
 
+    /// D0 rounded to the position format.
     #[inline(always)]
     fn output<R: RoundingMode>(&self, guard: u32) -> Point {
-        self.d0.map(|d| shift_right::<R>(d, guard))
+        let half = (1 << guard) >> 1;
+        self.d0.map(|d| {
+            let bias = match R::MODE {
+                Rounding::Floor => 0,
+                Rounding::NearestUp => half,
+                Rounding::NearestEven => half - 1 + (d >> guard & 1),
+                Rounding::NearestAway => half - 1 + (d >> 61 & 1), // a tie below 0 goes down
+            };
+            ((d + bias) >> guard).wrapping_sub(OFFSET >> guard) as i64
+        })
     }
 }
 
-/// Runs a curve from both ends; `out` has an entry for each of the list's. Returns half-runs and steps.
-pub(super) fn run<R: RoundingMode>(
+/// Runs a curve from both ends; `out` has a place for each inner entry of the list. Returns half-runs and steps.
+pub(super) fn run<R: RoundingMode, S: Slot>(
     curve: &[Point; 4],
     list: &List,
     guard: u32,
-    out: &mut [Point],
+    out: &mut [S],
 ) -> (u64, u64) {
-    let segments = list.segments();
-    out[0] = curve[0];
-    out[segments] = curve[3];
     if list.level() == Level::MIN {
         return (0, 0);
     }
     if list.level() == Level::TWO {
-        out[1] = centre::<R>(curve);
+        out[0].put(centre::<R>(curve));
         return (0, 0);
     }
-    let [mut near, mut far] = set_up(curve, list.reciprocal(), guard);
+    let r = list.reciprocal();
+    let [mut near, mut far] = if r < 1 << 31 {
+        set_up::<Signed>(curve, r, guard)
+    } else {
+        set_up::<Unsigned>(curve, r, guard)
+    };
     if list.crosses_centre() {
         // 1 < level < 2: each end's single step passes the centre and makes the other half's vertex.
         near.step();
         far.step();
-        out[2] = near.output::<R>(guard);
-        out[1] = far.output::<R>(guard);
+        out[1].put(near.output::<R>(guard));
+        out[0].put(far.output::<R>(guard));
         return (2, 2);
     }
-    let half = list.half_segments();
-    let (first, second) = out.split_at_mut(half);
-    for point in &mut first[1..] {
+    let steps = list.half_segments() - 1;
+    let (first, second) = out.split_at_mut(steps);
+    for slot in first {
         near.step();
-        *point = near.output::<R>(guard);
+        slot.put(near.output::<R>(guard));
     }
-    second[0] = centre::<R>(curve);
-    for point in second[1..half].iter_mut().rev() {
+    second[0].put(centre::<R>(curve));
+    for slot in second[1..].iter_mut().rev() {
         far.step();
-        *point = far.output::<R>(guard);
+        slot.put(far.output::<R>(guard));
     }
-    (2, 2 * (half as u64 - 1))
+    (2, 2 * steps as u64)
 }
 
 /// The middle of the curve, its sum paired so that either end gives the same: W + 3 bits.
@@ -101,34 +118,58 @@ fn centre<R: RoundingMode>([a, b, c, d]: &[Point; 4]) -> Point {
 
 /// Registers at both ends for a step of `r` (U0.32).
 #[inline(always)]
-fn set_up([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
+fn set_up<P: Product>([b0, b1, b2, b3]: &[Point; 4], r: u64, guard: u32) -> [Registers; 2] {
     let h2 = r * r; // U0.64: r < 2^32 above level 1
     let h3 = ((u128::from(h2) * u128::from(r)) >> 32) as u64;
     let h1 = r << 32;
-    let down = 64 - guard;
-    let half = 1_i128 << (down - 1);
-    let rounded = |sum: i128| ((sum + half) >> down) as i64;
-    let zero = Registers { d0: [0; 4], d1: [0; 4], d2: [0; 4], d3: [0; 4] };
-    let mut ends = [zero; 2];
+    let mut ends = [Registers { d0: [0; 4], d1: [0; 4], d2: [0; 4], d3: [0; 4] }; 2];
     for i in 0..4 {
         let a = b3[i] - b0[i] + 3 * (b1[i] - b2[i]);
-        let cubic = product(a, h3); // W + 4 + 64 bits, 116 at W = 48
-        for (end, [p, q, s], cubic) in
-            [(0, [b0[i], b1[i], b2[i]], cubic), (1, [b3[i], b2[i], b1[i]], -cubic)]
-        {
-            let square = product(3 * (p + s - 2 * q), h2);
-            let linear = product(3 * (q - p), h1);
-            let registers: &mut Registers = &mut ends[end];
-            registers.d0[i] = p << guard;
-            registers.d1[i] = rounded(cubic + square + linear);
-            registers.d2[i] = rounded(6 * cubic + 2 * square);
-            registers.d3[i] = rounded(6 * cubic);
+        // W + 4 and W + 7 bits, times 64: 119 at W = 48
+        let (cubic, six_cubic) = (P::of(a, h3), P::of(6 * a, h3));
+        let [near, far] = &mut ends;
+        for (end, [p, q, s], cubic, six_cubic) in [
+            (near, [b0[i], b1[i], b2[i]], cubic, six_cubic),
+            (far, [b3[i], b2[i], b1[i]], -cubic, -six_cubic),
+        ] {
+            let b = 3 * (p + s - 2 * q);
+            end.d0[i] = ((p << guard) as u64).wrapping_add(OFFSET);
+            end.d1[i] = rounded(cubic + P::of(b, h2) + P::of(3 * (q - p), h1), guard);
+            end.d2[i] = rounded(six_cubic + P::of(2 * b, h2), guard);
+            end.d3[i] = rounded(six_cubic, guard);
         }
     }
     ends
 }
 
+/// The exact product of a coefficient and a power of the step with 64 fraction bits.
+trait Product {
+    fn of(a: i64, h: u64) -> i128;
+}
+
+/// For steps below 1/2, whose powers are below 2^63: one signed multiplication.
+struct Signed;
+
+/// For any step.
+struct Unsigned;
+
+impl Product for Signed {
+    #[inline(always)]
+    fn of(a: i64, h: u64) -> i128 {
+        i128::from(a) * i128::from(h as i64)
+    }
+}
+
+impl Product for Unsigned {
+    #[inline(always)]
+    fn of(a: i64, h: u64) -> i128 {
+        i128::from(a) * i128::from(h)
+    }
+}
+
+/// From 64 fraction bits to `guard`, half up; the low 64 bits of the register.
 #[inline(always)]
-fn product(a: i64, h: u64) -> i128 {
-    i128::from(a) * i128::from(h)
+fn rounded(sum: i128, guard: u32) -> u64 {
+    let sum = sum + (1 << (63 - guard));
+    (((sum as u128) << (guard & 63)) >> 64) as u64 // guard < 64, said so that one funnel shift does it
 }

@@ -49,7 +49,7 @@ fn bend(points: &[Pixel; 16], line: [usize; 4]) -> Option<u128> {
 
 /// n >= sqrt(3/4 bend / d), UQ.16: n^2 2^32 = 3/4 bend 2^32 / pixels.
 fn curve_level(bend: u128, pixels: u32) -> u64 {
-    sqrt_ceil((3 * bend << 30).div_ceil(u128::from(pixels))) as u64
+    sqrt_ceil(((3 * bend) << 30).div_ceil(u128::from(pixels))) as u64
 }
 
 /// Levels along u and v for which 6 Muu/n^2 + 18 Muv/(n m) + 6 Mvv/m^2 <= 8 d, M the second differences of the net.

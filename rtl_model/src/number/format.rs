@@ -35,18 +35,14 @@ impl Format {
     /// Saturation keeps to the symmetric range; wrapping uses all of two's complement.
     #[must_use]
     #[inline]
-    pub fn fit<O: OverflowMode>(self, value: i128) -> (i64, bool) {
-        let max = i128::from(self.max());
-        match O::MODE {
-            Overflow::Saturate => {
-                let fitted = value.clamp(-max, max);
-                (fitted as i64, fitted != value)
-            }
+    pub fn fit<O: OverflowMode>(self, value: i64) -> (i64, bool) {
+        let fitted = match O::MODE {
+            Overflow::Saturate => value.clamp(-self.max(), self.max()),
             Overflow::Wrap => {
                 let unused = 64 - self.width;
-                let fitted = ((value as i64) << unused) >> unused;
-                (fitted, i128::from(fitted) != value)
+                (value << unused) >> unused
             }
-        }
+        };
+        (fitted, fitted != value)
     }
 }

@@ -16,5 +16,5 @@ pub use mode::{
     Floor, Modal, NearestAway, NearestEven, NearestUp, Overflow, OverflowMode, Rounding,
     RoundingMode, Saturate, Wrap, dispatch,
 };
-pub use round::{divide, divide_narrow, lerp, shift_right, shift_right_wide, sqrt_ceil};
+pub use round::{Divisor, divide, lerp, shift_right, shift_right_wide, sqrt_ceil};
 pub use wide::Wide;

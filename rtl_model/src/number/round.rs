@@ -69,11 +69,57 @@ pub fn divide<R: RoundingMode>(numerator: i128, denominator: i128) -> i128 {
 /// When the denominator is not positive.
 #[must_use]
 #[inline]
-pub fn divide_narrow<R: RoundingMode>(numerator: i64, denominator: i64) -> i64 {
+fn divide_narrow<R: RoundingMode>(numerator: i64, denominator: i64) -> i64 {
     assert!(denominator > 0, "a denominator is positive");
     let (quotient, rest) = (numerator.div_euclid(denominator), numerator.rem_euclid(denominator));
     let up = rounds_up::<R>((2 * rest).cmp(&denominator), quotient & 1 != 0, numerator < 0);
     quotient + i64::from(up)
+}
+
+/// A divisor of several numerators, whose reciprocal is formed once: one division, then a multiplication each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Divisor {
+    value: u64,
+    /// floor(2^63 / value)
+    reciprocal: u64,
+}
+
+impl Divisor {
+    /// The divisor `value`, below 2^62.
+    ///
+    /// # Panics
+    /// When the value is 0.
+    #[must_use]
+    #[inline]
+    pub fn new(value: u64) -> Self {
+        Self { value, reciprocal: (1 << 63) / value }
+    }
+
+    /// `round(numerator / value)`, correctly rounded where it lies in -`zero`..`zero`, and otherwise some integer
+    /// outside of that; for |numerator| < 2^60 and value * `zero` < 2^61.
+    #[must_use]
+    #[inline(always)]
+    pub fn divide<R: RoundingMode>(self, numerator: i64, zero: u64) -> i64 {
+        // From -zero on the number line is positive, and floor is what a truncated product gives. Rounding to nearest
+        // is the floor of one half more.
+        let half = if matches!(R::MODE, Rounding::Floor) { 0 } else { self.value };
+        let (double, shifted) = (2 * self.value, (2 * numerator) as u64);
+        let from_zero = shifted.wrapping_add(double.wrapping_mul(zero)).wrapping_add(half);
+        // The reciprocal takes less than from_zero / 2^64 off: the quotient, or one less.
+        let estimate = ((u128::from(from_zero) * u128::from(self.reciprocal)) >> 64) as u64;
+        let rest = from_zero.wrapping_sub(estimate.wrapping_mul(double));
+        let short = rest >= double;
+        let quotient = estimate.wrapping_add(u64::from(short)).wrapping_sub(zero) as i64;
+        let tie = rest == 0 || rest == double; // half an ulp past the integer below
+        quotient
+            - i64::from(
+                tie && match R::MODE {
+                    Rounding::Floor | Rounding::NearestUp => false,
+                    Rounding::NearestEven => quotient & 1 != 0,
+                    Rounding::NearestAway => quotient <= 0,
+                },
+            )
+    }
 }
 
 /// Whether a floored quotient goes one up; `past_half` compares what was cut off with a half.
@@ -172,7 +218,7 @@ pub(super) mod tests {
             let end = 1_i64 << (width - 1);
             let one = 1_i64 << fraction;
             let mut compared = 0;
-            let mut same = |got: i128, (n, d): (i64, i64)| {
+            let mut same = |got: i64, (n, d): (i64, i64)| {
                 let want = fit_reference(small(n, d, R::MODE), width, O::MODE);
                 let (fitted, overflowed) = self.0.fit::<O>(got);
                 assert_eq!(fitted, want, "{n}/{d} in {:?}, {:?} {:?}", self.0, R::MODE, O::MODE);
@@ -181,21 +227,22 @@ pub(super) mod tests {
             };
             for a in -end..end {
                 for b in -end..end {
-                    same(i128::from(a) + i128::from(b), (a + b, 1));
-                    same(i128::from(a) - i128::from(b), (a - b, 1));
-                    same(shift_right::<R>(a * b, fraction as u32).into(), (a * b, one));
+                    same(a + b, (a + b, 1));
+                    same(a - b, (a - b, 1));
+                    same(shift_right::<R>(a * b, fraction as u32), (a * b, one));
                     let wide =
                         shift_right_wide::<R>(i128::from(a) * i128::from(b), fraction as u32);
-                    same(wide, (a * b, one));
+                    same(wide as i64, (a * b, one));
                     if b > 0 {
-                        same(divide::<R>(i128::from(a * one), b.into()), (a * one, b));
+                        same(divide::<R>((a * one).into(), b.into()) as i64, (a * one, b));
+                        same(Divisor::new(b as u64).divide::<R>(a * one, 1 << 20), (a * one, b));
                         // The same quotient through the 128-bit path.
                         let (n, d) = (i128::from(a * one) << 64, i128::from(b) << 64);
-                        same(divide::<R>(n, d), (a * one, b));
+                        same(divide::<R>(n, d) as i64, (a * one, b));
                     }
                     for t in (0..=one).step_by((one as usize / 8).max(1)) {
                         let exact = a * (one - t) + b * t;
-                        same(lerp::<R>(a, b, t as u32, fraction as u32).into(), (exact, one));
+                        same(lerp::<R>(a, b, t as u32, fraction as u32), (exact, one));
                     }
                 }
                 let single = (a as f32 / 4.0).to_bits(); // a quarter: rounds, and overflows at fraction 8
@@ -228,6 +275,14 @@ pub(super) mod tests {
         assert_eq!(shift_right_wide::<R>(value.into(), n), divide::<R>(value.into(), 1 << n));
     }
 
+    fn same_as_divide<R: RoundingMode>(n: i64, d: u64, zero: u64) {
+        let exact = divide::<R>(n.into(), d.into());
+        let band = -i128::from(zero)..i128::from(zero);
+        let got = i128::from(Divisor::new(d).divide::<R>(n, zero));
+        assert_eq!(band.contains(&exact), band.contains(&got), "{n} / {d} within {zero}");
+        assert!(!band.contains(&exact) || exact == got, "{n} / {d} is {exact}, not {got}");
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
 
@@ -240,13 +295,29 @@ pub(super) mod tests {
         }
 
         #[test]
-        fn fits_as_modular_and_clamped_i128(value in -(1_i128 << 100)..1 << 100, width in 2u32..=48) {
+        fn a_divisor_divides_as_a_division_does(
+            numerator in -(1_i64 << 60)..1 << 60, shift in 0u32..50, bits in 1u32..38, d: u64,
+            zero in 1u32..24,
+        ) {
+            let d = (d >> (64 - bits)).max(1);
+            let (n, zero) = (numerator >> shift, 1_u64 << zero);
+            same_as_divide::<super::super::Floor>(n, d, zero);
+            same_as_divide::<super::super::NearestUp>(n, d, zero);
+            same_as_divide::<super::super::NearestEven>(n, d, zero);
+            same_as_divide::<super::super::NearestAway>(n, d, zero);
+            let tie = (n % 100) * d as i64 + d as i64 / 2;
+            same_as_divide::<super::super::NearestEven>(tie, d, zero);
+            same_as_divide::<super::super::NearestAway>(tie, d, zero);
+        }
+
+        #[test]
+        fn fits_as_modular_and_clamped_i128(value in -(1_i64 << 61)..1 << 61, width in 2u32..=48) {
             let format = Format { width, fraction: 0 };
-            let span = 1_i128 << width;
+            let span = 1_i64 << width;
             let wrapped = (value + span / 2).rem_euclid(span) - span / 2;
-            prop_assert_eq!(i128::from(format.fit::<Wrap>(value).0), wrapped);
+            prop_assert_eq!(format.fit::<Wrap>(value).0, wrapped);
             let saturated = value.max(1 - span / 2).min(span / 2 - 1);
-            prop_assert_eq!(i128::from(format.fit::<Saturate>(value).0), saturated);
+            prop_assert_eq!(format.fit::<Saturate>(value).0, saturated);
         }
 
         #[test]
@@ -254,12 +325,12 @@ pub(super) mod tests {
             type Q = fixed::types::I16F16;
             let (x, y) = (Q::from_bits(a), Q::from_bits(b));
             let q = Format { width: 32, fraction: 16 };
-            let product = shift_right_wide::<super::super::Floor>(i128::from(a) * i128::from(b), 16);
+            let product = shift_right_wide::<super::super::Floor>(i128::from(a) * i128::from(b), 16) as i64;
             prop_assert_eq!(q.fit::<Wrap>(product).0, i64::from(x.wrapping_mul(y).to_bits()));
             // The crate saturates to -2^31 where the symmetric range ends at 1 - 2^31.
             let symmetric = |v: Q| i64::from(v.to_bits()).max(-q.max());
             prop_assert_eq!(q.fit::<Saturate>(product).0, symmetric(x.saturating_mul(y)));
-            let sum = i128::from(a) + i128::from(b);
+            let sum = i64::from(a) + i64::from(b);
             prop_assert_eq!(q.fit::<Wrap>(sum).0, i64::from(x.wrapping_add(y).to_bits()));
             prop_assert_eq!(q.fit::<Saturate>(sum).0, symmetric(x.saturating_add(y)));
             let even = shift_right::<super::super::NearestEven>(i64::from(a), 16) << 16;

@@ -1,7 +1,8 @@
 //! Camera: where to stand and what to look at in, the matrices of a frame out.
 //!
-//! World coordinates are right-handed with z up; the eye looks along its -z; depth is 0 at the near plane and 1 at the
-//! far one, which is finite, so that the range of clip space follows from the frame.
+//! World coordinates are right-handed with z up; the eye looks along its -z; depth is 0 at the near
+//! plane and 1 at the far one, which is finite, so that the range of clip space follows from the
+//! frame.
 
 use super::super::command::{Frame, Range};
 use glam::{DMat3, DMat4, DVec3};
@@ -47,7 +48,8 @@ impl Camera {
         let fitted = |middle: DVec3| {
             seen.iter().map(|p| room(*p - middle)).fold(depth + size / 16.0, f64::max)
         };
-        // What is near looks larger, so the middle of the picture is not that of the box: a few steps find it.
+        // What is near looks larger, so the middle of the picture is not that of the box: a few
+        // steps find it.
         for _ in 0..8 {
             let distance = fitted(middle);
             let shown = |p: &DVec3| (*p - middle) / (distance - (p.z - middle.z));
@@ -92,7 +94,8 @@ fn aspect() -> f64 {
     f64::from(VIEWPORT[0]) / f64::from(VIEWPORT[1])
 }
 
-/// How far from the eye the middle must be for the point at `offset` from it, in eye axes, to be seen.
+/// How far from the eye the middle must be for the point at `offset` from it, in eye axes, to be
+/// seen.
 fn room(offset: DVec3) -> f64 {
     let side = (offset.x.abs() * FOCAL / aspect()).max(offset.y.abs() * FOCAL);
     offset.z + side / FILL

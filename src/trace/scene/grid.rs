@@ -1,9 +1,11 @@
-//! Grid: how many patches in, a bumpy surface of that many out, as meshes of at most 16 by 16 patches.
+//! Grid: how many patches in, a bumpy surface of that many out, as meshes of at most 16 by 16
+//! patches.
 //!
-//! The surface is a uniform bicubic B-spline over a lattice of heights, turned into Bézier points, so it is smooth to the second
-//! derivative across every patch and mesh. A control point is a function of its place in the whole grid alone: meshes
-//! that share an edge agree on it to the bit. All meshes use the one id 0, replaced each time, and nothing is
-//! kept: the size of the grid does not matter to memory, here or in a reader.
+//! The surface is a uniform bicubic B-spline over a lattice of heights, turned into Bézier points,
+//! so it is smooth to the second derivative across every patch and mesh. A control point is a
+//! function of its place in the whole grid alone: meshes that share an edge agree on it to the bit.
+//! All meshes use the one id 0, replaced each time, and nothing is kept: the size of the grid does
+//! not matter to memory, here or in a reader.
 
 use super::super::command::{Command, Draw, Header, IDENTITY, Points, Primitive, Tessellation};
 use super::super::points::PointSource;
@@ -122,8 +124,8 @@ impl Heights {
     }
 }
 
-/// The first of the lattice points that Bézier point `i` depends on, and their weights: Boehm's knot insertion for
-/// a uniform cubic B-spline.
+/// The first of the lattice points that Bézier point `i` depends on, and their weights: Boehm's
+/// knot insertion for a uniform cubic B-spline.
 fn knots(i: u32) -> (usize, &'static [f64]) {
     const CORNER: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
     const NEAR: [f64; 2] = [2.0 / 3.0, 1.0 / 3.0];

@@ -1,5 +1,5 @@
-//! Mesh: one mesh of 6 by 8 patches in two frames, the second nearer and with levels from edge lengths. Its points cross
-//! the link once, in the first.
+//! Mesh: one mesh of 6 by 8 patches in two frames, the second nearer and with levels from edge
+//! lengths. Its points cross the link once, in the first.
 
 use super::super::command::{Command, Header, Points, Tessellation};
 use super::super::points::PointSource;

@@ -1,5 +1,6 @@
-//! Scenes: options in, the text of a trace out. Every scene is deterministic, to the byte and on every machine: its
-//! numbers come from arithmetic and square roots, which IEEE 754 rounds exactly, never from a sine.
+//! Scenes: options in, the text of a trace out. Every scene is deterministic, to the byte and on
+//! every machine: its numbers come from arithmetic and square roots, which IEEE 754 rounds exactly,
+//! never from a sine.
 
 pub mod camera;
 pub mod grid;

@@ -1,10 +1,12 @@
-//! Newell: the four models of Martin Newell's tea set, University of Utah, 1975, as bicubic Bézier patches.
+//! Newell: the four models of Martin Newell's tea set, University of Utah, 1975, as bicubic Bézier
+//! patches.
 //!
-//! The numbers of the 32-patch teapot are those of three.js, `examples/jsm/geometries/TeapotGeometry.js` (MIT, the
-//! three.js authors); those of the other three are from freeglut 3.4.0, `src/fg_teapot_data.h`, the comment block
-//! `teasetorig.gz` (X11 licence, Pawel W. Olszta), by way of P. Schneider, 1990. They are kept as they are, gaps and all: the
-//! 28-patch teapot and the teaspoon have seams that are up to 8e-4 apart, and handle, spout and lid meet the
-//! body of no pot. The files are plain BPT ([`super::super::import`]).
+//! The numbers of the 32-patch teapot are those of three.js,
+//! `examples/jsm/geometries/TeapotGeometry.js` (MIT, the three.js authors); those of the other
+//! three are from freeglut 3.4.0, `src/fg_teapot_data.h`, the comment block `teasetorig.gz` (X11
+//! licence, Pawel W. Olszta), by way of P. Schneider, 1990. They are kept as they are, gaps and
+//! all: the 28-patch teapot and the teaspoon have seams that are up to 8e-4 apart, and handle,
+//! spout and lid meet the body of no pot. The files are plain BPT ([`super::super::import`]).
 
 use super::super::import::read_bpt;
 
@@ -80,7 +82,8 @@ mod tests {
         (values, slopes)
     }
 
-    /// Thrice the volume that a patch sweeps from the origin, by the divergence theorem: positive where it faces out.
+    /// Thrice the volume that a patch sweeps from the origin, by the divergence theorem: positive
+    /// where it faces out.
     fn volume(patch: &[[f32; 3]]) -> f64 {
         const N: usize = 8;
         let sum = |bu: &[f64; 4], bv: &[f64; 4]| {

@@ -1,9 +1,10 @@
 //! Rational: an exact torus of 16 patches round an exact sphere of 8, from rational quadratic arcs.
 //!
-//! A quarter of a circle is the quadratic (1,0) (1,1) (0,1) with weights 1, sqrt(1/2), 1; raised to degree 3 it has the
-//! homogeneous points P0, (P0 + 2 P1)/3, (2 P1 + P2)/3, P2. Both bodies are products of two such arcs (Piegl and
-//! Tiller, The NURBS Book, sec. 7.3 and 8.3). The other quarters follow by turning, which is exact, and each coordinate is rounded
-//! once, so neighbours agree on their edge to the bit. The sphere's patches have one side collapsed, at a pole.
+//! A quarter of a circle is the quadratic (1,0) (1,1) (0,1) with weights 1, sqrt(1/2), 1; raised to
+//! degree 3 it has the homogeneous points P0, (P0 + 2 P1)/3, (2 P1 + P2)/3, P2. Both bodies are
+//! products of two such arcs (Piegl and Tiller, The NURBS Book, sec. 7.3 and 8.3). The other
+//! quarters follow by turning, which is exact, and each coordinate is rounded once, so neighbours
+//! agree on their edge to the bit. The sphere's patches have one side collapsed, at a pole.
 
 use super::super::command::{Command, Draw, Header, IDENTITY, Points, Primitive, Tessellation};
 use super::super::points::PointSource;
@@ -72,11 +73,12 @@ fn arc(quarter: usize) -> [Plane; 4] {
     first.map(|point| (0..quarter).fold(point, |p, _| turn(p)))
 }
 
-/// What the profile, in the half-plane of radius and z, sweeps about the z axis: u along the profile's turn about
-/// the axis, v along the profile.
+/// What the profile, in the half-plane of radius and z, sweeps about the z axis: u along the
+/// profile's turn about the axis, v along the profile.
 fn sweep(profile: &[Plane; 4], turn: &[Plane; 4]) -> impl Iterator<Item = [f32; 4]> {
     let point = |[radius, z, w]: Plane, [c, s, v]: Plane| [radius * c, radius * s, z * v, w * v];
-    // + 0.0 turns -0 to 0: the bits of a shared point must not depend on the quarter it is reached from.
+    // + 0.0 turns -0 to 0: the bits of a shared point must not depend on the quarter it is reached
+    // from.
     let round = |p: [f64; 4]| p.map(|n| n as f32 + 0.0);
     profile.iter().flat_map(move |p| turn.iter().map(move |t| round(point(*p, *t))))
 }

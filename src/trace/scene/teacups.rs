@@ -1,8 +1,9 @@
 //! Teacups: cups on a plane in, a walk among them out, one frame after another.
 //!
-//! The cup's points are resident: they cross the link once, and every frame sends the matrices of its instances. Cups stand
-//! about three units apart on a jittered square lattice, each turned its own way; the eye walks from the front row
-//! towards the middle and sways a little, so that cups are seen large and small, and some are passed.
+//! The cup's points are resident: they cross the link once, and every frame sends the matrices of
+//! its instances. Cups stand about three units apart on a jittered square lattice, each turned its
+//! own way; the eye walks from the front row towards the middle and sways a little, so that cups
+//! are seen large and small, and some are passed.
 
 use super::super::command::{Command, Draw, Header, Points, Primitive, Tessellation};
 use super::super::points::PointSource;
@@ -74,7 +75,8 @@ impl Teacups {
         let jitter = |axis| JITTER * (2.0 * random(i, axis) - 1.0);
         let x = f64::from(column) * SPACING + jitter(0);
         let y = f64::from(row) * SPACING + jitter(1);
-        // (1 - t t, 2 t) / (1 + t t) is on the unit circle; with t from -1 to 1 it is on the right half.
+        // (1 - t t, 2 t) / (1 + t t) is on the unit circle; with t from -1 to 1 it is on the right
+        // half.
         let t = 2.0 * random(i, 2) - 1.0;
         let half = if random(i, 3) < 0.5 { 1.0 } else { -1.0 };
         let (c, s) = (half * (1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
@@ -85,7 +87,8 @@ impl Teacups {
     fn camera(&self, frame: u32) -> Camera {
         let size = f64::from(self.side() - 1) * SPACING;
         let t = f64::from(frame) / f64::from(self.frames.max(2) - 1);
-        // A cubic that leaves the middle, comes back at the half and at the end: half a unit to either side.
+        // A cubic that leaves the middle, comes back at the half and at the end: half a unit to
+        // either side.
         let sway = 10.0 * t * (t - 0.5) * (t - 1.0);
         let x = size / 2.0 + sway;
         let y = -5.0 + t * (size / 2.0 + 2.0);

@@ -1,0 +1,110 @@
+//! What several tests need: a seeded choice of numbers, a sink that keeps meshes, cameras.
+#![allow(dead_code, reason = "each test uses its part")]
+
+use glam::camera::rh::proj::directx;
+use glam::camera::rh::view::look_at_mat4;
+use rtl_model::patch::{Triangle, Vertex};
+use tessim::error::Result;
+use tessim::sink::{FrameInfo, PatchMesh, Sink};
+use tessim::trace::command::{Command, Draw, Frame, IDENTITY, Points, Primitive};
+use tessim::trace::points::PointSource;
+
+/// How many times over a campaign runs: `TESSIM_LONG=1` asks for the long one.
+pub(crate) fn scale(short: usize, long: usize) -> usize {
+    if std::env::var_os("TESSIM_LONG").is_some_and(|v| v == "1") { long } else { short }
+}
+
+/// splitmix64: a seeded sequence that no library version changes.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ z >> 31
+    }
+
+    /// 0..n.
+    pub(crate) fn below(&mut self, n: u64) -> u64 {
+        self.bits() % n
+    }
+
+    /// low..high.
+    pub(crate) fn range(&mut self, low: f32, high: f32) -> f32 {
+        let unit = (self.bits() >> 40) as f32 / (1u64 << 24) as f32;
+        low + (high - low) * unit
+    }
+
+    pub(crate) fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len() as u64) as usize]
+    }
+}
+
+/// A patch's mesh, kept.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Mesh {
+    pub(crate) frame: u64,
+    pub(crate) patch: u32,
+    pub(crate) vertices: Vec<Vertex>,
+    pub(crate) triangles: Vec<Triangle>,
+}
+
+/// Keeps every mesh of every frame.
+#[derive(Default)]
+pub(crate) struct Keep {
+    pub(crate) frames: Vec<FrameInfo>,
+    pub(crate) meshes: Vec<Mesh>,
+}
+
+impl Sink for Keep {
+    fn wants(&self, _frame: u64) -> bool {
+        true
+    }
+
+    fn frame(&mut self, frame: &FrameInfo) -> Result<()> {
+        self.frames.push(*frame);
+        Ok(())
+    }
+
+    fn patch(&mut self, mesh: &PatchMesh<'_>) -> Result<()> {
+        self.meshes.push(Mesh {
+            frame: self.frames.len() as u64 - 1,
+            patch: mesh.patch,
+            vertices: mesh.vertices.to_vec(),
+            triangles: mesh.triangles.to_vec(),
+        });
+        Ok(())
+    }
+}
+
+/// A camera at `eye` that looks at the origin, z up unless it looks along z.
+pub(crate) fn camera(eye: glam::Vec3, near: f32, far: f32) -> Frame {
+    let up = if eye.truncate().length() < 1e-3 { glam::Vec3::Y } else { glam::Vec3::Z };
+    Frame {
+        viewport: [1280, 1024],
+        view: look_at_mat4(eye, glam::Vec3::ZERO, up).to_cols_array(),
+        projection: directx::perspective(0.8, 1.25, near, far).to_cols_array(),
+        depth: Default::default(),
+        range: Default::default(),
+    }
+}
+
+/// Points under an id.
+pub(crate) fn points(id: u32, points: Vec<[f32; 3]>) -> Command {
+    Command::Points(Points { id, source: PointSource::Xyz(points).into(), resident: false })
+}
+
+/// A draw that culls nothing.
+pub(crate) fn draw(primitive: Primitive, points: u32, first: u64) -> Draw {
+    Draw {
+        primitive,
+        points,
+        first,
+        models: vec![IDENTITY],
+        models_sent: false,
+        reversed: false,
+        cull: false,
+    }
+}

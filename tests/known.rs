@@ -1,0 +1,244 @@
+//! Numbers that do not come from the tool: counts worked out by hand, conservation laws between counters, and the
+//! expected counters of every shipped trace (`UPDATE_EXPECT=1` rewrites those, for a person to read the difference).
+
+mod common;
+
+use rtl_model::counter::Counter as C;
+use rtl_model::counter::Counters;
+use std::io::BufReader;
+use std::path::Path;
+use tessim::config::{BackfaceMethod, Config, Normals, Scheme, Unit};
+use tessim::error::Result;
+use tessim::output;
+use tessim::report::Report;
+use tessim::sink::NoMesh;
+use tessim::trace::read::Reader;
+use tessim::unit::simulate;
+
+const SHIPPED: [&str; 5] = ["mesh", "rational", "teacup", "teapot", "teaspoon"];
+
+fn run_text(text: &str, config: &Config) -> Result<Report> {
+    let reader = Reader::new(BufReader::new(text.as_bytes()), "text", "traces");
+    simulate(reader.map(|l| Ok(l?.command)), config, &mut NoMesh)
+}
+
+fn shipped(name: &str) -> String {
+    std::fs::read_to_string(format!("traces/{name}.jsonl")).expect("a shipped trace")
+}
+
+/// A shipped trace at a fixed level, with `"cull":false` in its draws.
+fn fixed(name: &str, level: &str) -> String {
+    let tessellation =
+        format!(r#"{{"tessellation":{{"criterion":"fixed","level":{level},"max_level":128}}}}"#);
+    let mut lines: Vec<String> = shipped(name)
+        .lines()
+        .filter(|l| !l.starts_with(r#"{"tessellation""#))
+        .map(|l| l.replace(r#"{"draw":{"#, r#"{"draw":{"cull":false,"#))
+        .collect();
+    lines.insert(1, tessellation);
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn a_teapot_at_level_8_is_what_arithmetic_says() {
+    let report = run_text(&fixed("teapot", "8"), &Config::default()).expect("a teapot");
+    let totals = report.totals();
+    let known = [
+        (C::TracePatches, 32),
+        (C::AssembleReceived, 512),           // 32 patches of 16
+        (C::LinkControlPoints, 6144),         // 512 of 12 bytes
+        (C::LinkCommands, 4 * 8),             // tessellation, frame, points, draw
+        (C::LinkMatrices, 2 * 64),            // view and projection
+        (C::TransformBytesOut, 8192),         // a vec4 each
+        (C::BackfaceTested, 0),               // "cull":false
+        (C::StitchTriangles, 4096),           // 32 of 2 * 8 * 8
+        (C::EmitVertices, 2592),              // 32 of 9 * 9
+        (C::EvaluateInvocations, 2592 + 896), // and 4 control points for each of 7 rows
+        (C::EvaluateCurves, 32 * 2 * 15),     // two half-runs for 4 edges, 4 columns, 7 rows
+        (C::EvaluateSteps, 32 * 15 * 6),      // 3 steps each
+        (C::PlaceReciprocals, 32),            // one level
+        (C::EmitBytes, 2592 * 16 + 4096 * 6), // 16 a vertex, three 2-byte indices a triangle
+        (C::VertexShaderInvocations, 2592),
+        (C::VertexShaderBytesIn, 2592 * 24),
+    ];
+    for (counter, value) in known {
+        assert_eq!(totals.get(counter), value, "{counter:?}");
+    }
+    // 6144 + 8 bytes of points take 25 packets of 256; the three other commands one each.
+    assert_eq!(totals.get(C::LinkOverhead), (25 + 3) * 24);
+    // The host would send a frame, and a draw of 2592 vertices of 32 bytes and 12288 short indices.
+    let draw: u64 = 8 + 2592 * 32 + 12288 * 2;
+    assert_eq!(report.host_link_bytes, (8 + 128 + 24) + draw + draw.div_ceil(256) * 24);
+}
+
+#[test]
+fn levels_have_their_counts_and_the_host_sends_the_same_triangles() {
+    // segments 1, 3 and 2h: triangles 2, 10 + 8 = 18 over 2 x 2 interior points, 8 h^2
+    for (level, triangles, vertices) in
+        [("1", 2, 4), ("1.5", 18, 16), ("2", 8, 9), ("128", 32768, 16641)]
+    {
+        let text = fixed("teaspoon", level);
+        let report = run_text(&text, &Config::default()).expect("a teaspoon");
+        assert_eq!(report.total(C::StitchTriangles), 16 * triangles, "level {level}");
+        assert_eq!(report.total(C::EmitVertices), 16 * vertices, "level {level}");
+        let host = Config { unit: Unit::Triangles, ..Config::default() };
+        let host = run_text(&text, &host).expect("a teaspoon");
+        assert_eq!(host.total(C::EmitTriangles), 16 * triangles);
+        assert_eq!(host.total(C::LinkTotal), report.host_link_bytes, "level {level}");
+        assert_eq!(host.total(C::LinkVertices), 16 * vertices * 32);
+        let index = if 16 * vertices > 65536 { 4 } else { 2 };
+        assert_eq!(host.total(C::LinkIndices), 16 * triangles * 3 * index);
+    }
+}
+
+/// A grid of points for meshes of `rows` by `columns` patches.
+fn mesh_text(rows: u32, columns: u32, resident: bool, instances: u32) -> String {
+    let points: Vec<String> = (0..=3 * rows)
+        .flat_map(|y| (0..=3 * columns).map(move |x| format!("[{x},{y},0]")))
+        .collect();
+    let identity = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+    let instances = vec![identity; instances as usize].join(",");
+    format!(
+        "{{\"tessim\":1}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":{identity},\"projection\":[0.01,0,0,0,0,0.01,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n\
+         {{\"points\":{{\"id\":0,\"xyz\":[{}],\"resident\":{resident}}}}}\n\
+         {{\"draw\":{{\"primitive\":\"mesh\",\"points\":0,\"rows\":{rows},\"columns\":{columns},\"instances\":[{instances}]}}}}\n\
+         {{\"end\":{{}}}}\n",
+        points.join(",")
+    )
+}
+
+#[test]
+fn a_mesh_brings_its_points_once_an_instance() {
+    let mut compared = 0;
+    for (rows, columns, instances) in
+        [(1, 1, 1), (4, 5, 3), (1, 40, 2), (40, 1, 2), (33, 40, 1), (2, 1100, 1)]
+    {
+        let text = mesh_text(rows, columns, true, instances);
+        let totals = run_text(&text, &Config::default()).expect("a mesh").totals();
+        let (m, n, k) = (u64::from(rows), u64::from(columns), u64::from(instances));
+        let points = (3 * m + 1) * (3 * n + 1);
+        let known = [
+            (C::LinkControlPoints, 12 * points),
+            (C::LinkMatrices, 128 + 64 * k),
+            (C::MemoryWrittenControlPoints, 12 * points),
+            (C::MemoryReadControlPoints, 12 * points * k),
+            (C::MemoryBursts, (12 * points).div_ceil(32) * (k + 1)),
+            (C::AssembleReceived, points * k),
+            (C::PortPoints, points * k), // blocks of large meshes overlap; counted once all the same
+            (C::AssembleReused, (16 * m * n - points) * k),
+            (C::AssembleEdgePeak, if m > 1 { 3 * n + 1 } else { 0 } + if n > 1 { 4 } else { 0 }),
+            (C::LevelPatches, m * n * k), // a plane that faces the viewer: nothing is culled
+            (C::StitchTriangles, 2 * m * n * k),
+        ];
+        for (counter, value) in known {
+            assert_eq!(totals.get(counter), value, "{counter:?} of {rows} x {columns}");
+            compared += 1;
+        }
+    }
+    println!("compared {compared} counters");
+}
+
+/// Every law that the declarations state.
+fn laws(c: &Counters, config: &Config) {
+    let get = |counter| c.get(counter);
+    let link =
+        [C::LinkCommands, C::LinkMatrices, C::LinkControlPoints, C::LinkVertices, C::LinkIndices];
+    let payload: u64 = link.map(get).iter().sum();
+    let burst = u64::from(config.memory.burst);
+    let moved = get(C::MemoryReadControlPoints) + get(C::MemoryWrittenControlPoints);
+    let emit = u64::from(config.emit.vertex_bytes) * get(C::EmitVertices)
+        + 3 * u64::from(config.emit.index_bytes) * get(C::EmitTriangles);
+    let equal = [
+        (get(C::LinkTotal), payload + get(C::LinkOverhead)),
+        (get(C::MemoryBursts) * burst, moved + get(C::MemoryWasted)),
+        (get(C::TransformInvocations), get(C::PortPoints)),
+        (get(C::TransformInvocations), get(C::AssembleReceived)),
+        (get(C::TransformBytesOut), 16 * get(C::TransformInvocations)),
+        (get(C::AssembleReceived) + get(C::AssembleReused), 16 * get(C::AssemblePatches)),
+        (get(C::TracePatches), get(C::AssemblePatches)),
+        (get(C::AssemblePatches), get(C::ClipIn)),
+        (get(C::ClipIn) - get(C::ClipCulled), get(C::BackfaceIn)),
+        (get(C::BackfaceIn) - get(C::BackfaceCulled), get(C::LevelPatches)),
+        (get(C::EvaluateVertices), get(C::EmitVertices)),
+        (get(C::StitchTriangles), get(C::EmitTriangles)),
+        (get(C::EmitVertices), get(C::VertexShaderInvocations)),
+        (get(C::EmitBytes), emit),
+    ];
+    for (k, (a, b)) in equal.iter().enumerate() {
+        assert_eq!(a, b, "law {k} under {config:?}");
+    }
+    let at_most = [
+        (get(C::MemoryWrittenControlPoints), get(C::LinkControlPoints)),
+        (get(C::PortSaturated), get(C::PortPoints)),
+        (get(C::PortSaturated), get(C::PortOverflows)),
+        (get(C::PortOverflows), 4 * get(C::PortSaturated)),
+        (get(C::BackfaceCulled), get(C::BackfaceTested)),
+        (get(C::BackfaceTested), get(C::BackfaceIn)),
+        (get(C::LevelClamped), 6 * get(C::LevelPatches)),
+        (get(C::LevelNear), 4 * get(C::LevelPatches)),
+        (get(C::PlaceReciprocals), 6 * get(C::LevelPatches)),
+        (get(C::EvaluateNormalsDegenerate), get(C::EvaluateNormals)),
+        (get(C::EvaluateNormals), get(C::EvaluateVertices)),
+        (get(C::StitchDegenerate), get(C::StitchTriangles)),
+        (get(C::EmitToClipper), get(C::EmitVertices)),
+        // 2V - B - 2 with at least 4 boundary vertices a patch
+        (get(C::StitchTriangles), 2 * get(C::EmitVertices) - 6 * get(C::LevelPatches)),
+    ];
+    for (k, (a, b)) in at_most.iter().enumerate() {
+        assert!(a <= b, "bound {k}: {a} > {b} under {config:?}");
+    }
+}
+
+#[test]
+fn counters_conserve_what_flows_under_every_configuration() {
+    let mut random = common::Random(6);
+    let mut frames = 0;
+    for _ in 0..common::scale(60, 1000) {
+        let mut config = Config::default();
+        config.position.width = 8 + random.below(41) as u32;
+        config.position.clip_range_log2 = random.pick(&[None, Some(0), Some(4)]);
+        config.backface.method = random.pick(&[
+            BackfaceMethod::Off,
+            BackfaceMethod::NetFacets,
+            BackfaceMethod::TangentPlane,
+        ]);
+        config.clip.enabled = random.below(3) > 0;
+        config.emit.divide = random.below(3) > 0;
+        config.evaluate.scheme =
+            random.pick(&[Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
+        config.evaluate.normals = random.pick(&[Normals::Off, Normals::TangentPlane]);
+        config.link.payload = random.pick(&[128, 256]);
+        config.memory.burst = random.pick(&[16, 32, 64]);
+        config.level.max_level = random.pick(&[None, Some(4.0)]);
+        for name in SHIPPED {
+            for counters in &run_text(&shipped(name), &config).expect("a shipped trace").frames {
+                laws(counters, &config);
+                frames += 1;
+            }
+        }
+    }
+    println!("compared {frames} frames");
+    assert!(frames >= 300);
+}
+
+#[test]
+fn shipped_traces_have_their_expected_counters() {
+    for name in SHIPPED {
+        let report = run_text(&shipped(name), &Config::default()).expect("a shipped trace");
+        let mut csv = Vec::new();
+        output::counters::write(&report, &mut csv).expect("a vector takes it all");
+        let csv = String::from_utf8(csv).expect("text");
+        let path = format!("traces/{name}.counters.csv");
+        let path = Path::new(&path);
+        if std::env::var_os("UPDATE_EXPECT").is_some() {
+            std::fs::write(path, &csv).expect("the traces' folder is writable");
+        }
+        let expected = std::fs::read_to_string(path).unwrap_or_default();
+        for (line, (got, want)) in csv.lines().zip(expected.lines()).enumerate() {
+            assert_eq!(got, want, "{}:{}: UPDATE_EXPECT=1 accepts", path.display(), line + 1);
+        }
+        assert_eq!(csv, expected, "{}", path.display());
+        println!("compared {} rows of {name}", csv.lines().count());
+    }
+}

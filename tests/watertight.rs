@@ -1,0 +1,207 @@
+//! Two patches that share a bit-equal edge have bit-equal boundary vertices along it: forward, reversed or transposed,
+//! in other draws, primitives and frames, at every width, rounding, overflow and scheme.
+
+mod common;
+
+use common::{Keep, Mesh, Random, camera, draw, points, scale};
+use glam::Vec3;
+use rtl_model::level::Criterion;
+use rtl_model::number::{Overflow, Rounding};
+use rtl_model::patch::{EDGES, Level, ONE, Point};
+use tessim::config::{Config, Scheme};
+use tessim::trace::command::{Command, Primitive, Tessellation};
+use tessim::unit::simulate;
+
+/// Pairs of patches in one run.
+const PAIRS: usize = 40;
+
+/// Two patches that share an edge: which edge of each, and whether the second runs it backwards.
+#[derive(Clone, Copy, Debug)]
+struct Shared {
+    a: usize,
+    b: usize,
+    reversed: bool,
+}
+
+/// Vertices along an edge in the direction of its growing parameter: position and parameter.
+fn row(mesh: &Mesh, edge: usize) -> Vec<(Point, u32)> {
+    let on = |v: &&rtl_model::patch::Vertex| [v.v == 0, v.u == ONE, v.v == ONE, v.u == 0][edge];
+    let along = |v: &rtl_model::patch::Vertex| (v.position, if edge & 1 == 0 { v.u } else { v.v });
+    let mut row: Vec<_> = mesh.vertices.iter().filter(on).map(along).collect();
+    match edge {
+        2 => row.reverse(),
+        3 => {
+            row[1..].reverse(); // vertex 0 is the edge's first, the others are numbered backwards
+        }
+        _ => {}
+    }
+    row
+}
+
+/// Whether two rows are one, the second walked backwards or not.
+fn same(a: &[(Point, u32)], b: &[(Point, u32)], reversed: bool) -> bool {
+    let flip = |&(p, t): &(Point, u32)| (p, if reversed { ONE - t } else { t });
+    let mut b: Vec<_> = b.iter().map(flip).collect();
+    if reversed {
+        b.reverse();
+    }
+    a == b
+}
+
+fn patch(random: &mut Random, reach: f32) -> Vec<[f32; 3]> {
+    let centre = [(); 3].map(|()| random.range(-1.0, 1.0));
+    let mut patch = vec![[0.0; 3]; 16];
+    for (k, point) in patch.iter_mut().enumerate() {
+        let lattice = [(k % 4) as f32 / 3.0 - 0.5, (k / 4) as f32 / 3.0 - 0.5, 0.0];
+        for i in 0..3 {
+            point[i] = centre[i] + reach * (lattice[i] + random.range(-0.4, 0.4));
+        }
+    }
+    if random.below(8) == 0 {
+        let first = patch[0];
+        patch[..4].fill(first); // a collapsed edge
+    }
+    patch
+}
+
+/// A pair and how it shares.
+fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
+    let reach = random.pick(&[0.05, 0.5, 2.0, 6.0]);
+    let (a, mut b) = (patch(random, reach), patch(random, reach));
+    let shared = Shared {
+        a: random.below(4) as usize,
+        b: random.below(4) as usize,
+        reversed: random.below(2) == 1,
+    };
+    for k in 0..4 {
+        let j = if shared.reversed { 3 - k } else { k };
+        b[EDGES[shared.b][j]] = a[EDGES[shared.a][k]];
+    }
+    ([a, b], shared)
+}
+
+fn config(random: &mut Random) -> Config {
+    let mut config = Config::default();
+    config.position.width = 8 + random.below(41) as u32;
+    config.position.rounding = random.pick(&Rounding::ALL);
+    config.position.overflow = random.pick(&Overflow::ALL);
+    config.evaluate.rounding = random.pick(&Rounding::ALL);
+    config.evaluate.scheme = random.pick(&[Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
+    if random.below(2) == 0 {
+        config.evaluate.guard =
+            Some(1 + random.below(20.min(60 - u64::from(config.position.width))) as u32);
+    }
+    // A range that is too small now and then, so that saturation and wrapping are met.
+    config.position.clip_range_log2 = [None, None, None, Some(1)][random.below(4) as usize];
+    config
+}
+
+fn tessellation(random: &mut Random) -> Tessellation {
+    let pixels = random.pick(&[1 << 13, 1 << 16, 40 << 16]);
+    let criterion = match random.below(4) {
+        0 => Criterion::EdgeLength { pixels: 8 * pixels.min(40 << 16) },
+        1 => Criterion::Fixed { level: Level::clamped(ONE as u64 + random.below(20 << 16)) },
+        _ => Criterion::Flatness { pixels },
+    };
+    Tessellation { criterion, min_level: ONE, max_level: 64 * ONE }
+}
+
+/// A run's commands: the first patches of all pairs in one frame as `patches`, the second in the next as meshes.
+fn commands(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation) -> Vec<Command> {
+    let frame = || Command::Frame(camera(Vec3::new(3.0, 2.0, 1.5), 0.5, 12.0));
+    let mut commands = vec![Command::Tessellation(tessellation), frame()];
+    let firsts = pairs.iter().flat_map(|p| p[0].clone()).collect();
+    commands.push(points(0, firsts));
+    let count = pairs.len() as u64;
+    commands.push(Command::Draw(draw(Primitive::Patches { count }, 0, 0)));
+    commands.push(frame());
+    for pair in pairs {
+        commands.push(points(1, pair[1].clone()));
+        commands.push(Command::Draw(draw(Primitive::Mesh { rows: 1, columns: 1 }, 1, 0)));
+    }
+    commands
+}
+
+fn meshes(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation, config: &Config) -> Vec<Mesh> {
+    let mut keep = Keep::default();
+    let mut whole = config.clone();
+    whole.clip.enabled = false;
+    let commands = commands(pairs, tessellation).into_iter().map(Ok);
+    simulate(commands, &whole, &mut keep).expect("the commands are well-formed");
+    assert_eq!(keep.meshes.len(), 2 * pairs.len());
+    keep.meshes
+}
+
+#[test]
+fn shared_edges_are_bit_identical() {
+    let mut random = Random(2);
+    let (mut edges, mut vertices, mut uneven) = (0, 0, 0);
+    for _ in 0..scale(150, 25_000) {
+        let (config, tessellation) = (config(&mut random), tessellation(&mut random));
+        let (pairs, shared): (Vec<_>, Vec<_>) = (0..PAIRS).map(|_| pair(&mut random)).unzip();
+        let meshes = meshes(&pairs, tessellation, &config);
+        for (k, shared) in shared.iter().enumerate() {
+            let (a, b) = (&meshes[k], &meshes[PAIRS + k]);
+            let (ra, rb) = (row(a, shared.a), row(b, shared.b));
+            assert!(
+                same(&ra, &rb, shared.reversed),
+                "pair {k} {shared:?} under {config:?}, {tessellation:?}:\n{ra:?}\n{rb:?}"
+            );
+            let segments = |m: &Mesh| [0, 1, 2, 3].map(|e| row(m, e).len());
+            let others = [segments(a), segments(b)].concat();
+            uneven += usize::from(others.iter().any(|&n| n != ra.len()));
+            edges += 1;
+            vertices += ra.len();
+        }
+    }
+    println!(
+        "compared {edges} edge pairs, {vertices} vertices; {uneven} beside an edge of another level"
+    );
+    assert!(
+        edges >= 6000 && vertices > 5 * edges,
+        "only {edges} edges, {vertices} vertices compared"
+    );
+    assert!(2 * uneven >= edges, "levels differ on only {uneven} of {edges}");
+}
+
+/// The comparison sees what it is there to see.
+#[test]
+fn planted_faults_are_caught() {
+    let mut random = Random(3);
+    let (mut tried, mut surface_run, mut rounding) = (0, 0, 0);
+    for _ in 0..20 {
+        let mut right = Config::default();
+        right.position.width = 24 + random.below(20) as u32;
+        let mut flipped = right.clone();
+        flipped.evaluate.rounding = Rounding::Floor;
+        let mut surface = right.clone();
+        surface.evaluate.scheme = Scheme::DeCasteljau;
+        let criterion = Criterion::Fixed { level: Level::clamped(u64::from(7 * ONE + 12_345)) };
+        let tessellation = Tessellation { criterion, ..Tessellation::default() };
+        let (pairs, shared): (Vec<_>, Vec<_>) = (0..PAIRS).map(|_| pair(&mut random)).unzip();
+        let [right, flipped, surface] =
+            [right, flipped, surface].map(|config| meshes(&pairs, tessellation, &config));
+        for (k, shared) in shared.iter().enumerate() {
+            let good = row(&right[k], shared.a);
+            let collapsed = good.iter().all(|v| v.0 == good[0].0);
+            if collapsed {
+                continue; // every evaluator makes the same point of it
+            }
+            tried += 1;
+            let neighbour = row(&right[PAIRS + k], shared.b);
+            assert!(same(&good, &neighbour, shared.reversed));
+            let middle = 2;
+            // That vertex as the surface's own evaluator makes it, at the reported parameter; and rounded down.
+            let mut planted = good.clone();
+            planted[middle] = row(&surface[k], shared.a)[middle];
+            surface_run += usize::from(!same(&planted, &neighbour, shared.reversed));
+            let mut planted = good.clone();
+            planted[middle] = row(&flipped[k], shared.a)[middle];
+            rounding += usize::from(!same(&planted, &neighbour, shared.reversed));
+        }
+    }
+    println!("planted {tried}: surface run caught {surface_run}, rounding caught {rounding}");
+    assert!(tried > 500);
+    // Of four coordinates rounded down, one in sixteen times none differs.
+    assert!(surface_run * 10 >= tried * 9 && rounding * 10 >= tried * 8);
+}
