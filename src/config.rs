@@ -11,11 +11,11 @@ pub mod layers;
 pub mod preset;
 pub mod print;
 
-use rtl_model::number::{Overflow, Rounding};
 use serde::{Deserialize, Serialize};
 
 pub use rtl_model::backface::Method as BackfaceMethod;
 pub use rtl_model::evaluate::{Normals, Scheme};
+pub use rtl_model::number::{Overflow, Rounding};
 
 /// Widest position format.
 pub const WIDTH_MAX: u32 = 48;

@@ -1,6 +1,7 @@
 //! To come.
 pub mod config;
 pub mod error;
+pub mod golden;
 pub mod link;
 pub mod output;
 pub mod report;

@@ -1,0 +1,65 @@
+//! Assemble: the size of a primitive in, the points of each of its patches out (Sfarti et al.
+//! 2005, section 6).
+//!
+//! The definition is geometric. Control points are the nodes of a lattice, a patch is a cell with
+//! its 4 x 4 nodes, points are numbered by row and column, and a patch brings the nodes that no
+//! patch before it had. The block knows closed formulas for all that; here they are sets.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A patch of a primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Its points as numbers within the primitive, row-major.
+    pub points: [u64; 16],
+    /// How many of them no earlier patch has brought.
+    pub new: u64,
+}
+
+/// `rows` by `columns` patches that share the points of their common edges, row by row.
+#[must_use]
+pub fn mesh(rows: u32, columns: u32) -> Vec<Cell> {
+    let cells: Vec<[(u32, u32); 16]> =
+        (0..rows).flat_map(|r| (0..columns).map(move |c| nodes(3 * r, 3 * c))).collect();
+    number(&cells)
+}
+
+/// Patches that share nothing: cells of one row, with a gap between them.
+#[must_use]
+pub fn patches(count: u32) -> Vec<Cell> {
+    let nodes = |n: u32| nodes(0, 0).map(|(row, column)| (4 * n + row, column));
+    number(&(0..count).map(nodes).collect::<Vec<_>>())
+}
+
+/// The 4 x 4 nodes from (row, column) on.
+fn nodes(row: u32, column: u32) -> [(u32, u32); 16] {
+    std::array::from_fn(|k| (row + k as u32 / 4, column + k as u32 % 4))
+}
+
+fn number(cells: &[[(u32, u32); 16]]) -> Vec<Cell> {
+    let lattice: BTreeSet<(u32, u32)> = cells.iter().flatten().copied().collect();
+    let numbers: BTreeMap<_, u64> = lattice.into_iter().zip(0..).collect();
+    let mut seen = BTreeSet::new();
+    let cell = |nodes: &[(u32, u32); 16]| Cell {
+        points: nodes.map(|node| numbers[&node]),
+        new: nodes.iter().filter(|&&node| seen.insert(node)).count() as u64,
+    };
+    cells.iter().map(cell).collect()
+}
+
+/// The most points that are held for a later patch while patches come in order.
+#[must_use]
+pub fn held_peak(cells: &[Cell]) -> u64 {
+    let mut last_use = BTreeMap::new();
+    for (n, cell) in cells.iter().enumerate() {
+        last_use.extend(cell.points.map(|point| (point, n)));
+    }
+    let mut held = BTreeSet::new();
+    let mut peak = 0;
+    for (n, cell) in cells.iter().enumerate() {
+        held.extend(cell.points);
+        held.retain(|point| last_use[point] > n);
+        peak = peak.max(held.len() as u64);
+    }
+    peak
+}

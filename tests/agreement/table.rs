@@ -1,0 +1,237 @@
+//! The table of error budgets: one row for each quantity that a block makes, its budget as a
+//! formula, and why.
+//!
+//! A budget is a bound, so an error above it is a mistake somewhere. It is also a claim about how
+//! good the block is: if the largest error seen is below a quarter of it, the claim is too modest
+//! and fails too. Samples are seeded, so the largest error is the same on every machine;
+//! `TESSIM_LONG=1` draws more, which can only raise it.
+
+use rtl_model::number::Rounding;
+
+/// What a budget may depend on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct At {
+    /// Bits of a position.
+    pub(crate) width: u32,
+    /// Guard bits.
+    pub(crate) guard: u32,
+    /// Steps of the half-runs that led here: along the curve, and along the column before it.
+    pub(crate) steps: [u32; 2],
+    /// How the output was rounded.
+    pub(crate) rounding: Rounding,
+    /// What the block's own, bounded errors become in the result, where that depends on the input.
+    pub(crate) spread: f64,
+}
+
+impl Default for At {
+    fn default() -> Self {
+        Self { width: 32, guard: 20, steps: [0; 2], rounding: Rounding::NearestEven, spread: 0.0 }
+    }
+}
+
+/// What is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    Transform,
+    PortValue,
+    PortFits,
+    AssemblePoints,
+    AssembleNew,
+    AssembleHeld,
+    ClipVerdict,
+    TangentCoefficients,
+    TangentVerdict,
+    FacetsVerdict,
+    FalseCulls,
+    LevelFixed,
+    LevelNear,
+    LevelFlatEdge,
+    LevelFlatEdgeShort,
+    LevelFlatInterior,
+    LevelDeviation,
+    LevelLength,
+    PlaceCounts,
+    PlaceParameter,
+    ForwardBoundary,
+    ForwardInterior,
+    DriftBoundary,
+    DriftInterior,
+    CasteljauBoundary,
+    CasteljauInterior,
+    Corners,
+    Centres,
+    Plane,
+    StitchTriangles,
+    EmitPixel,
+    EmitDivided,
+    EmitDegenerate,
+}
+
+/// A row of the table.
+pub(crate) struct Row {
+    /// The quantity.
+    pub(crate) quantity: Quantity,
+    /// The block, a file of `rtl_model/src` or of `src/shader`.
+    pub(crate) block: &'static str,
+    /// The quantity in words, with its unit.
+    pub(crate) what: &'static str,
+    /// The bound; `None`: exact, every item must be equal.
+    pub(crate) budget: Option<fn(&At) -> f64>,
+    /// Why.
+    pub(crate) reason: &'static str,
+    /// Fewer items than this, and the comparison has not taken place.
+    pub(crate) floor: u64,
+}
+
+/// Half an ulp, or a whole one for a floor.
+fn rounding(at: &At) -> f64 {
+    if at.rounding == Rounding::Floor { 1.0 } else { 0.5 }
+}
+
+/// What f64 itself is off by: sixteen terms of a coordinate's size.
+fn reference(at: &At) -> f64 {
+    16.0 * 2f64.powi(at.width as i32 - 1 - 53)
+}
+
+/// The accumulator after n steps: D1, D2, D3 each off by half an ulp of 2^-guard, and h^3
+/// truncated to 2^-64 under |a| <= 8 * 2^(W-1).
+fn accumulator(at: &At, n: u32) -> f64 {
+    let n = f64::from(n);
+    let coefficients = (n + n * (n - 1.0) / 2.0 + n * (n - 1.0) * (n - 2.0) / 6.0) / 2.0;
+    coefficients * 2f64.powi(-(at.guard as i32)) + n.powi(3) * 2f64.powi(at.width as i32 + 2 - 64)
+}
+
+pub(crate) fn forward_curve(at: &At) -> f64 {
+    rounding(at) + accumulator(at, at.steps[0]) + reference(at)
+}
+
+pub(crate) fn forward_surface(at: &At) -> f64 {
+    2.0 * rounding(at) + accumulator(at, at.steps[0]) + accumulator(at, at.steps[1]) + reference(at)
+}
+
+/// Whether accumulators may be off by more than the output's rounding.
+pub(crate) fn drifts(at: &At) -> bool {
+    accumulator(at, at.steps[0]) + accumulator(at, at.steps[1]) > 2.0 * rounding(at)
+}
+
+fn casteljau_curve(at: &At) -> f64 {
+    3.0 * rounding(at) + reference(at)
+}
+
+fn casteljau_surface(at: &At) -> f64 {
+    6.0 * rounding(at) + reference(at)
+}
+
+/// A row whose items must be equal.
+const fn exact(
+    quantity: Quantity,
+    block: &'static str,
+    what: &'static str,
+    floor: u64,
+    reason: &'static str,
+) -> Row {
+    Row { quantity, block, what, budget: None, reason, floor }
+}
+
+const fn within(
+    quantity: Quantity,
+    block: &'static str,
+    what: &'static str,
+    floor: u64,
+    budget: fn(&At) -> f64,
+    reason: &'static str,
+) -> Row {
+    Row { quantity, block, what, budget: Some(budget), reason, floor }
+}
+
+use Quantity as Q;
+
+#[rustfmt::skip]
+pub(crate) const TABLE: &[Row] = &[
+    within(Q::Transform, "control_point", "coordinate, 2^-24 of its terms' magnitudes", 10_000,
+        |_| 4.0,
+        "one product and three sums in f32, each off by 2^-24 of a partial sum"),
+    exact(Q::PortValue, "port", "raw coordinate", 50_000,
+        "rounded once, from an exact product"),
+    exact(Q::PortFits, "port", "coordinates that do not fit", 50_000,
+        "a comparison of integers"),
+    exact(Q::AssemblePoints, "assemble", "indices of a patch", 400,
+        "a decision"),
+    exact(Q::AssembleNew, "assemble", "points received", 400,
+        "a decision"),
+    within(Q::AssembleHeld, "assemble", "edge entries above the points alive", 60,
+        |_| 4.0,
+        "a store has its full length at once, and where the row and the column store cross, a \
+         point stands in both"),
+    exact(Q::ClipVerdict, "clip", "verdict", 2_000,
+        "comparisons of integers"),
+    exact(Q::TangentCoefficients, "backface", "81 coefficients", 1_000,
+        "256-bit integers"),
+    exact(Q::TangentVerdict, "backface", "tangent_plane verdict", 1_000,
+        "exact wherever the estimate is not certain"),
+    exact(Q::FacetsVerdict, "backface", "net_facets verdict", 1_000,
+        "exact volumes"),
+    exact(Q::FalseCulls, "backface", "samples of culled patches that face the viewer", 10_000,
+        "no Bernstein coefficient above 0: no value above 0"),
+    exact(Q::LevelFixed, "level", "fixed levels", 500,
+        "a clamp"),
+    exact(Q::LevelNear, "level", "edges without projection", 1_000,
+        "comparisons of integers"),
+    within(Q::LevelFlatEdge, "level", "flatness, edge level, 2^-16", 1_000,
+        |at| at.spread + 1.01,
+        "spread: a second difference is up to 6.83 / 65536 px too long (PIXELS_MOVED); then a \
+         root rounded up"),
+    exact(Q::LevelFlatEdgeShort, "level", "flatness, edge levels below the bound", 1_000,
+        "every rounding is up, so that a bound stays a bound"),
+    within(Q::LevelFlatInterior, "level", "flatness, interior level, 2^-16", 500,
+        |at| at.spread + 1.01,
+        "spread: the same through all three differences and the starting levels; then a root \
+         rounded up"),
+    within(Q::LevelDeviation, "level", "flatness, bound at the interior levels, tolerances", 500,
+        |_| 1.0 + 1e-9,
+        "the criterion itself, where no level was cut to the greatest"),
+    within(Q::LevelLength, "level", "edge_length, level, 2^-16", 1_000,
+        |at| at.spread + 1.01,
+        "spread: three segments, each rounded up once and off by sqrt(2) for its rounded ends, \
+         over `pixels`"),
+    exact(Q::PlaceCounts, "place", "numbers of entries and reciprocals", 1_000,
+        "decisions"),
+    within(Q::PlaceParameter, "place", "parameter, U1.16 ulps", 100_000,
+        |at| 0.5 + f64::from(at.steps[0]) * 2f64.powi(-16),
+        "rounded once; R is truncated, k R / 2^32 off by k 2^-32"),
+    within(Q::ForwardBoundary, "evaluate", "forward, boundary, ulps", 100_000,
+        forward_curve,
+        "three coefficients rounded once, n steps; the output's rounding"),
+    within(Q::ForwardInterior, "evaluate", "forward, interior, ulps", 100_000,
+        forward_surface,
+        "the same twice: a row's control points are convexly combined"),
+    within(Q::DriftBoundary, "evaluate", "of these, drift above rounding, boundary, ulps", 1_000,
+        forward_curve,
+        "the same bound where the accumulator's part is the greater: few guard bits, many steps"),
+    within(Q::DriftInterior, "evaluate", "of these, drift above rounding, interior, ulps", 1_000,
+        forward_surface,
+        "the same bound where the accumulators' part is the greater"),
+    within(Q::CasteljauBoundary, "evaluate", "de Casteljau, boundary, ulps", 10_000,
+        casteljau_curve,
+        "three interpolations deep, each rounded once and convex"),
+    within(Q::CasteljauInterior, "evaluate", "de Casteljau, interior, ulps", 100_000,
+        casteljau_surface,
+        "six deep"),
+    exact(Q::Corners, "evaluate", "corners", 4_000,
+        "copied"),
+    exact(Q::Centres, "evaluate", "forward, centres of edges", 3_000,
+        "one exact sum over 8, rounded once: also which way ties go"),
+    within(Q::Plane, "evaluate", "normal of the tangent plane, radians", 2_000,
+        |at| at.spread,
+        "spread: 2/5 of what S within 3.5 ulps, Su/3 and Sv/3 within 6, and coefficients of 31 \
+         bits make of the normal; that all these roundings conspire has not been seen"),
+    exact(Q::StitchTriangles, "stitch", "set of triangles", 1_000,
+        "decisions"),
+    within(Q::EmitPixel, "emit", "screen coordinate, sub-pixel ulps", 100_000,
+        |at| rounding(at) + 1e-6,
+        "one quotient, rounded once; f64 within 2^-26"),
+    exact(Q::EmitDivided, "emit", "vertices divided", 100_000,
+        "comparisons of integers"),
+    exact(Q::EmitDegenerate, "emit", "degenerate triangles", 1_000,
+        "comparisons of integers"),
+];
