@@ -1,5 +1,5 @@
-//! How fast is function? Triangles a second through the whole unit, trace parsing excluded: teacups at level 16, with
-//! and without culling and divide, on one thread and on two.
+//! How fast is function? Triangles a second through the whole unit, trace parsing excluded: teacups
+//! at level 16, with and without culling and divide, on one thread and on two.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rtl_model::counter::Counter;

@@ -105,7 +105,8 @@ pub struct Level {
     /// Overrides the trace's greatest level.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_level: Option<f64>,
-    /// Points with a smaller w give their edges the greatest level; the near plane's w when absent.
+    /// Points with a smaller w give their edges the greatest level; the near plane's w when
+    /// absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<f64>,
 }

@@ -19,8 +19,8 @@ pub enum Place {
 /// Every error of the library.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A malformed trace or imported file: begins `FILE:LINE:COLUMN:` or `FILE: byte N:`, names the field, what was
-    /// found and what was expected.
+    /// A malformed trace or imported file: begins `FILE:LINE:COLUMN:` or `FILE: byte N:`, names the
+    /// field, what was found and what was expected.
     #[error("{}", located(file, place, message))]
     Input {
         /// The file as the user named it; `-` for standard input.

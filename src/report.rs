@@ -12,7 +12,8 @@ pub struct Report {
     pub blocks: &'static [Block],
     /// Counters of each frame.
     pub frames: Vec<Counters>,
-    /// Bytes that would have crossed the link, framing included, had the host sent the same triangles.
+    /// Bytes that would have crossed the link, framing included, had the host sent the same
+    /// triangles.
     pub host_link_bytes: u64,
 }
 

@@ -1,4 +1,5 @@
-//! The command line as users meet it: what is printed, what is written, what is refused, exit codes.
+//! The command line as users meet it: what is printed, what is written, what is refused, exit
+//! codes.
 
 use assert_cmd::Command;
 use predicates::prelude::*;

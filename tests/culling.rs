@@ -1,5 +1,5 @@
-//! Back-face removal: `tangent_plane` never drops a patch of which the quantised surface has a front-facing sample,
-//! and drops most of those that have none.
+//! Back-face removal: `tangent_plane` never drops a patch of which the quantised surface has a
+//! front-facing sample, and drops most of those that have none.
 
 mod common;
 
@@ -75,7 +75,8 @@ fn faces_viewer(points: &[DVec3; 16], front: f64) -> bool {
     false
 }
 
-/// One patch under one view: whether the quantised and the f32 surface face the viewer anywhere, and the verdicts.
+/// One patch under one view: whether the quantised and the f32 surface face the viewer anywhere,
+/// and the verdicts.
 struct Seen {
     quantised: bool,
     exact: bool,

@@ -1,5 +1,6 @@
-//! Numbers that do not come from the tool: counts worked out by hand, conservation laws between counters, and the
-//! expected counters of every shipped trace (`UPDATE_EXPECT=1` rewrites those, for a person to read the difference).
+//! Numbers that do not come from the tool: counts worked out by hand, conservation laws between
+//! counters, and the expected counters of every shipped trace (`UPDATE_EXPECT=1` rewrites those,
+//! for a person to read the difference).
 
 mod common;
 
@@ -125,7 +126,8 @@ fn a_mesh_brings_its_points_once_an_instance() {
             (C::MemoryReadControlPoints, 12 * points * k),
             (C::MemoryBursts, (12 * points).div_ceil(32) * (k + 1)),
             (C::AssembleReceived, points * k),
-            (C::PortPoints, points * k), // blocks of large meshes overlap; counted once all the same
+            // Blocks of large meshes overlap; counted once all the same.
+            (C::PortPoints, points * k),
             (C::AssembleReused, (16 * m * n - points) * k),
             (C::AssembleEdgePeak, if m > 1 { 3 * n + 1 } else { 0 } + if n > 1 { 4 } else { 0 }),
             (C::LevelPatches, m * n * k), // a plane that faces the viewer: nothing is culled

@@ -1,5 +1,5 @@
-//! Memory does not grow with the trace: a grid of many patches runs in the memory of a small one, with counters and
-//! with a mesh. One test, for it looks at the peak of the whole process.
+//! Memory does not grow with the trace: a grid of many patches runs in the memory of a small one,
+//! with counters and with a mesh. One test, for it looks at the peak of the whole process.
 
 mod common;
 

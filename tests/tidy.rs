@@ -1,4 +1,5 @@
-//! The rules of the house, as tests: what DESIGN and STYLE ask of every file, checked in every file.
+//! The rules of the house, as tests: what DESIGN and STYLE ask of every file, checked in every
+//! file.
 //!
 //! Each rule is a function from a file's path and text to what is wrong with it. `planted.rs` shows
 //! each rule a violation, so that a rule that has gone blind fails too.

@@ -1,5 +1,6 @@
-//! Two patches that share a bit-equal edge have bit-equal boundary vertices along it: forward, reversed or transposed,
-//! in other draws, primitives and frames, at every width, rounding, overflow and scheme.
+//! Two patches that share a bit-equal edge have bit-equal boundary vertices along it: forward,
+//! reversed or transposed, in other draws, primitives and frames, at every width, rounding,
+//! overflow and scheme.
 
 mod common;
 
@@ -106,7 +107,8 @@ fn tessellation(random: &mut Random) -> Tessellation {
     Tessellation { criterion, min_level: ONE, max_level: 64 * ONE }
 }
 
-/// A run's commands: the first patches of all pairs in one frame as `patches`, the second in the next as meshes.
+/// A run's commands: the first patches of all pairs in one frame as `patches`, the second in the
+/// next as meshes.
 fn commands(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation) -> Vec<Command> {
     let frame = || Command::Frame(camera(Vec3::new(3.0, 2.0, 1.5), 0.5, 12.0));
     let mut commands = vec![Command::Tessellation(tessellation), frame()];
@@ -191,7 +193,8 @@ fn planted_faults_are_caught() {
             let neighbour = row(&right[PAIRS + k], shared.b);
             assert!(same(&good, &neighbour, shared.reversed));
             let middle = 2;
-            // That vertex as the surface's own evaluator makes it, at the reported parameter; and rounded down.
+            // That vertex as the surface's own evaluator makes it, at the reported parameter; and
+            // rounded down.
             let mut planted = good.clone();
             planted[middle] = row(&surface[k], shared.a)[middle];
             surface_run += usize::from(!same(&planted, &neighbour, shared.reversed));

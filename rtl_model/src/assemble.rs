@@ -1,8 +1,9 @@
-//! Assemble: a stream of control points in, patches of sixteen out, with the reuse that the primitive allows.
+//! Assemble: a stream of control points in, patches of sixteen out, with the reuse that the
+//! primitive allows.
 //!
-//! Sfarti et al. 2005, section 6 and figure 5: of a mesh the anchor patch brings 16 points, the other patches of its
-//! row and column 12, all others 9. What they lack stands in on-chip state: the upper boundary of the row of patches
-//! below, and the right boundary of the patch to the left.
+//! Sfarti et al. 2005, section 6 and figure 5: of a mesh the anchor patch brings 16 points, the
+//! other patches of its row and column 12, all others 9. What they lack stands in on-chip state:
+//! the upper boundary of the row of patches below, and the right boundary of the patch to the left.
 //!
 //! ```text
 //!     9   9   9        held while patch (1, 1) is assembled:
@@ -78,8 +79,8 @@ impl Primitive {
         }
     }
 
-    /// Most control points of shared edges that are held at once: the row store, where another row follows, and the
-    /// column store, where another patch of the row does.
+    /// Most control points of shared edges that are held at once: the row store, where another row
+    /// follows, and the column store, where another patch of the row does.
     #[must_use]
     pub fn edge_entries_peak(self) -> u64 {
         match self {

@@ -1,15 +1,18 @@
 //! Back-face removal: patches in; those that no viewer can see from the front go no further.
 //!
-//! Sfarti et al. 2005, section 3, tests "the polyhedral faces of the convex hull". Taken at its word that cannot work
-//! (a closed hull seen from outside always has a face towards the viewer), so the test is an enum:
+//! Sfarti et al. 2005, section 3, tests "the polyhedral faces of the convex hull". Taken at its
+//! word that cannot work (a closed hull seen from outside always has a face towards the viewer), so
+//! the test is an enum:
 //!
-//! - `tangent_plane` (Loop, Niessner, Eisenacher 2011): the sign of det[S, Su, Sv] over the rows x, y, w says which
-//!   side of the surface the viewer is on. As a polynomial it has bidegree (8, 8); if none of its 81 Bernstein
-//!   coefficients is towards the viewer, no point of the surface is. Conservative, and exact on the quantised points.
-//! - `net_facets`: the 36 triangles of the control net, both diagonals of each facet. Closest to the paper; can drop
-//!   a visible patch.
+//! - `tangent_plane` (Loop, Niessner, Eisenacher 2011): the sign of det[S, Su, Sv] over the rows x,
+//!   y, w says which side of the surface the viewer is on. As a polynomial it has bidegree (8, 8);
+//!   if none of its 81 Bernstein coefficients is towards the viewer, no point of the surface is.
+//!   Conservative, and exact on the quantised points.
+//! - `net_facets`: the 36 triangles of the control net, both diagonals of each facet. Closest to
+//!   the paper; can drop a visible patch.
 //!
-//! A coefficient of zero counts as away. A patch with a saturated point is kept: its surface is not the user's.
+//! A coefficient of zero counts as away. A patch with a saturated point is kept: its surface is not
+//! the user's.
 
 mod tangent;
 
@@ -24,7 +27,8 @@ pub use tangent::{coefficients, tangent_plane};
 pub enum Method {
     /// No patch is removed.
     Off,
-    /// The 36 facets of the control net, both diagonals: Sfarti's "faces of the hull". Not conservative.
+    /// The 36 facets of the control net, both diagonals: Sfarti's "faces of the hull". Not
+    /// conservative.
     NetFacets,
     /// The 81 Bernstein coefficients of det[S, Su, Sv], none towards the viewer: conservative.
     TangentPlane,
@@ -48,7 +52,8 @@ pub fn accept(patch: &Patch, view: &View, method: Method) -> Verdict {
         return Verdict::Untested;
     }
     let front = if patch.reversed { -view.facing } else { view.facing };
-    // Rows x, y, w, and x mirrored where a negative determinant is the front: from here on positive is front.
+    // Rows x, y, w, and x mirrored where a negative determinant is the front: from here on positive
+    // is front.
     let points = patch.points.map(|[x, y, _, w]: Point| [x * front, y, w]);
     let away = match method {
         Method::Off => false,
@@ -58,7 +63,8 @@ pub fn accept(patch: &Patch, view: &View, method: Method) -> Verdict {
     if away { Verdict::Culled } else { Verdict::Kept }
 }
 
-/// Whether none of the 36 facet triangles faces the viewer; `points` are x, y, w with positive volumes in front.
+/// Whether none of the 36 facet triangles faces the viewer; `points` are x, y, w with positive
+/// volumes in front.
 #[must_use]
 pub fn net_facets(points: &[[i64; 3]; 16]) -> bool {
     let facet = |k: usize| {

@@ -1,12 +1,13 @@
 //! Clip: patches in; those wholly outside one plane of the clip volume go no further.
 //!
-//! Sfarti et al. 2005, section 3: if the 16 control points all lie outside the same plane, so does the surface. In
-//! clip space the planes are linear, so the test holds for every sign of w and for rational patches with positive
-//! weights; a point on a plane is inside.
+//! Sfarti et al. 2005, section 3: if the 16 control points all lie outside the same plane, so does
+//! the surface. In clip space the planes are linear, so the test holds for every sign of w and for
+//! rational patches with positive weights; a point on a plane is inside.
 
 use crate::patch::{Depth, Patch, Point};
 
-/// The planes that a point lies outside of, a bit each: x < -w, x > w, y < -w, y > w, nearer, farther.
+/// The planes that a point lies outside of, a bit each: x < -w, x > w, y < -w, y > w, nearer,
+/// farther.
 #[must_use]
 #[inline]
 pub fn outcode([x, y, z, w]: Point, depth: Depth) -> u8 {

@@ -1,7 +1,8 @@
-//! The declarations of counters: every number that a run reports, with its measure, meaning and conservation law.
+//! The declarations of counters: every number that a run reports, with its measure, meaning and
+//! conservation law.
 //!
-//! Declared once, here; a block adds to them by name and cannot invent one. Values are `u64`. Names that end in
-//! `.peak` aggregate by maximum, all others by sum.
+//! Declared once, here; a block adds to them by name and cannot invent one. Values are `u64`. Names
+//! that end in `.peak` aggregate by maximum, all others by sum.
 
 use std::fmt;
 

@@ -1,8 +1,9 @@
 //! Emit: vertices in, screen positions out.
 //!
-//! Perspective divide and viewport in one exact quotient, rounded once: x_screen = (x + w) width / (2 w), and y from
-//! the upper edge down, y_screen = (w - y) height / (2 w), both Q16.`subpixel_bits`. A vertex with w <= 0, or outside
-//! the band of +-32768 pixels that the format holds, stays homogeneous: the clipper must see it first.
+//! Perspective divide and viewport in one exact quotient, rounded once: x_screen = (x + w) width /
+//! (2 w), and y from the upper edge down, y_screen = (w - y) height / (2 w), both
+//! Q16.`subpixel_bits`. A vertex with w <= 0, or outside the band of +-32768 pixels that the format
+//! holds, stays homogeneous: the clipper must see it first.
 
 use crate::number::{
     Divisor, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide,
@@ -16,7 +17,8 @@ pub struct Screen {
     pub x: i32,
     /// Pixels from the upper edge, Q16.`subpixel_bits`.
     pub y: i32,
-    /// Whether the vertex was divided; if not, `x` and `y` are 0 and the clipper gets it homogeneous.
+    /// Whether the vertex was divided; if not, `x` and `y` are 0 and the clipper gets it
+    /// homogeneous.
     pub divided: bool,
 }
 
@@ -78,7 +80,7 @@ fn project<R: RoundingMode>(vertex: &Vertex, view: &View, subpixel_bits: u32) ->
         };
         [pixel(x + w, width), pixel(w - y, height)]
     };
-    let inside = |p: i64| p.wrapping_add(band as i64) as u64 <= 2 * band - 1;
+    let inside = |p: i64| (p.wrapping_add(band as i64) as u64) < 2 * band;
     if inside(px) && inside(py) {
         Screen { x: px as i32, y: py as i32, divided: true }
     } else {

@@ -1,8 +1,9 @@
 //! Evaluate: control points and parameter lists in, the positions of all vertices out.
 //!
-//! Every boundary vertex comes from a run along its own edge, from its own four control points (Moreton 2001: guard
-//! curves; and the corners are the corner points). Interior rows come from curves along u whose four control points
-//! are evaluated along v on the four columns of the net and rounded to the position format.
+//! Every boundary vertex comes from a run along its own edge, from its own four control points
+//! (Moreton 2001: guard curves; and the corners are the corner points). Interior rows come from
+//! curves along u whose four control points are evaluated along v on the four columns of the net
+//! and rounded to the position format.
 //!
 //! ```text
 //!   v1 ●──●──●──●──●   ● boundary: one run from each corner of each edge
@@ -12,8 +13,9 @@
 //!   v0 ●──●──●──●──●
 //! ```
 //!
-//! `forward` evaluates at t = k R / 2^32, of which the reported parameter is the nearest U1.16; `de_casteljau` at the
-//! reported parameter itself. An edge has one evaluator for its positions, in every mode.
+//! `forward` evaluates at t = k R / 2^32, of which the reported parameter is the nearest U1.16;
+//! `de_casteljau` at the reported parameter itself. An edge has one evaluator for its positions, in
+//! every mode.
 
 mod casteljau;
 mod forward;
@@ -219,7 +221,8 @@ struct Runner {
 
 impl Runner {
     fn new(settings: Settings, points: &[Point; 16]) -> Self {
-        // All curves lie in the hull of the control points, rows within one rounding error more: mostly all fits.
+        // All curves lie in the hull of the control points, rows within one rounding error more:
+        // mostly all fits.
         let largest = points.iter().flatten().map(|c| c.abs()).max().unwrap_or(0);
         let error = 2 * forward::error_max(settings.guard);
         Self { settings, checked: largest > settings.position.max() - error }

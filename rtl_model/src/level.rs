@@ -1,18 +1,21 @@
 //! Level: patches in, a tessellation level for each edge and for the interior out.
 //!
-//! An edge's level is a function of that edge's own four points, the frame and the tessellation state, and the same
-//! from either end: so neighbours agree. Points are projected to pixels (Q24.16, rounded once); from there on every
-//! decision is exact in integers.
+//! An edge's level is a function of that edge's own four points, the frame and the tessellation
+//! state, and the same from either end: so neighbours agree. Points are projected to pixels
+//! (Q24.16, rounded once); from there on every decision is exact in integers.
 //!
-//! - flatness, edges: n = sqrt(3/4 max(|P0-2P1+P2|, |P1-2P2+P3|) / d) (second-derivative bound, Wang 1984).
-//! - flatness, interior: at least that of every row (column) of the net, and both raised by one factor until
-//!   1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2) <= d (Filip, Magedson, Markot 1986), so that a twist is seen too.
-//! - edge_length: length of the projected control polygon / pixels; interior: the longest of the four rows (columns).
+//! - flatness, edges: n = sqrt(3/4 max(|P0-2P1+P2|, |P1-2P2+P3|) / d) (second-derivative bound,
+//!   Wang 1984).
+//! - flatness, interior: at least that of every row (column) of the net, and both raised by one
+//!   factor until 1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2) <= d (Filip, Magedson, Markot 1986), so
+//!   that a twist is seen too.
+//! - edge_length: length of the projected control polygon / pixels; interior: the longest of the
+//!   four rows (columns).
 //! - fixed: the level, edges and interior alike.
 //!
-//! A point with w below the near threshold, or so far outside that its projection does not fit, has no useful
-//! projection: its edges, and the interior, take the greatest level. For perspective patches the flatness bounds are
-//! estimates, since a projected cubic is rational.
+//! A point with w below the near threshold, or so far outside that its projection does not fit, has
+//! no useful projection: its edges, and the interior, take the greatest level. For perspective
+//! patches the flatness bounds are estimates, since a projected cubic is rational.
 
 mod bound;
 
@@ -98,7 +101,8 @@ impl Asked {
         Self { edges: [Some(level); 4], interior: [Some(level); 2] }
     }
 
-    /// The levels within the state's bounds. An interior is never coarser than the edges that run along it.
+    /// The levels within the state's bounds. An interior is never coarser than the edges that run
+    /// along it.
     fn granted(self, state: &State, events: &mut Events) -> Levels {
         let mut grant = |asked: Option<u64>| match asked {
             None => state.max,
@@ -117,8 +121,8 @@ fn clamp(level: u64, state: &State) -> Level {
     Level::clamped(level.clamp(state.min.fx16().into(), state.max.fx16().into()))
 }
 
-/// `x / w` in pixels. The offset of the viewport's centre does not matter to any criterion, nor does the direction
-/// of y, so both are left out.
+/// `x / w` in pixels. The offset of the viewport's centre does not matter to any criterion, nor
+/// does the direction of y, so both are left out.
 fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
     if w < view.near || w <= 0 {
         return None;

@@ -1,4 +1,5 @@
-//! The hardware, and nothing else: integers in, integers out. No floating point, no files, no threads, no `unsafe`.
+//! The hardware, and nothing else: integers in, integers out. No floating point, no files, no
+//! threads, no `unsafe`.
 //!
 //! ```text
 //!  control points          patches                       levels, parameters      points and triangles
@@ -7,8 +8,8 @@
 //!                                    outcodes of 81 coeff. alone    lists    differences  walk      snap
 //! ```
 //!
-//! A file imports only [`number`], [`counter`], [`patch`] and the blocks that stand above it in the list below, which
-//! is the order of the data.
+//! A file imports only [`number`], [`counter`], [`patch`] and the blocks that stand above it in the
+//! list below, which is the order of the data.
 
 pub mod number;
 

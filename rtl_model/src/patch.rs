@@ -50,7 +50,8 @@ pub struct View {
     pub depth: Depth,
     /// Points whose raw `w` is below this are too near to be projected (position format).
     pub near: i64,
-    /// +1 where a positive `det[S, Su, Sv]` over the rows x, y, w faces the viewer, -1 where a negative one does.
+    /// +1 where a positive `det[S, Su, Sv]` over the rows x, y, w faces the viewer, -1 where a
+    /// negative one does.
     pub facing: i64,
 }
 

@@ -1,8 +1,8 @@
 //! Place: levels in, parameter lists out (fractional).
 //!
-//! Moreton 2001 by way of Munkberg et al. 2008, section 2: an edge is two half-edges, each walked from its corner in
-//! steps of 1/level, the last step shortened to meet the other half at the centre. Levels between 1 and 2, where no
-//! vertex has reached the centre yet, have three segments:
+//! Moreton 2001 by way of Munkberg et al. 2008, section 2: an edge is two half-edges, each walked
+//! from its corner in steps of 1/level, the last step shortened to meet the other half at the
+//! centre. Levels between 1 and 2, where no vertex has reached the centre yet, have three segments:
 //!
 //! ```text
 //!   level 1     o───────────────────────────o   0, 1
@@ -11,8 +11,9 @@
 //!   5           o────o────o────┬────o────o────o  0 1/5 2/5 1/2 3/5 4/5 1: 2 ceil(level / 2) segments
 //! ```
 //!
-//! The one division of a level is R = floor(2^48 / level) in U0.32; it serves the parameters, rounded half up to
-//! U1.16, and the step of the forward differences, so that both agree and no half-run ever passes the centre.
+//! The one division of a level is R = floor(2^48 / level) in U0.32; it serves the parameters,
+//! rounded half up to U1.16, and the step of the forward differences, so that both agree and no
+//! half-run ever passes the centre.
 
 use crate::patch::{HALF, Level, Levels, ONE};
 
@@ -105,7 +106,8 @@ impl List {
             self.parameters[1] = ONE - step(1);
             self.parameters[2] = step(1);
         } else {
-            // ceil(level / 2); an integer needs no case, for k < half drops the duplicate of the centre
+            // ceil(level / 2); an integer needs no case, for k < half drops the duplicate of the
+            // centre
             let half = ((u64::from(level.fx16()) + 0x1_ffff) >> 17) as usize;
             self.segments = 2 * half;
             for k in 1..half {
@@ -134,8 +136,9 @@ pub struct Placement {
 impl Placement {
     /// Places the vertices of a patch with these levels.
     ///
-    /// The interior's levels are raised to min(m, 2), m the greatest level of all: otherwise a direction that leaves
-    /// level 1 would make a whole column of points appear on an edge that has no vertices there.
+    /// The interior's levels are raised to min(m, 2), m the greatest level of all: otherwise a
+    /// direction that leaves level 1 would make a whole column of points appear on an edge that
+    /// has no vertices there.
     pub fn set(&mut self, levels: &Levels) {
         let [u, v] = levels.interior;
         let most = levels.edges.into_iter().fold(u.max(v), Level::max);
@@ -181,8 +184,9 @@ impl Placement {
         self.boundary() + columns * rows
     }
 
-    /// Numbers of the first boundary vertex of each edge, counter-clockwise from (0, 0), and then of the first
-    /// interior vertex: the patch's numbering of vertices is by this order, interior row by row.
+    /// Numbers of the first boundary vertex of each edge, counter-clockwise from (0, 0), and then
+    /// of the first interior vertex: the patch's numbering of vertices is by this order,
+    /// interior row by row.
     #[must_use]
     pub fn starts(&self) -> [usize; 5] {
         let mut start = 0;

@@ -1,9 +1,11 @@
 //! Port: the bits of f32 coordinates in, points in the position format out.
 //!
-//! Rounds to nearest even and saturates to +-(2^(W-1) - 1) unless configured otherwise. Both are odd and monotone, so
-//! quantisation alone never moves an inside point outside: `x <= w` before means `x <= w` after.
+//! Rounds to nearest even and saturates to +-(2^(W-1) - 1) unless configured otherwise. Both are
+//! odd and monotone, so quantisation alone never moves an inside point outside: `x <= w` before
+//! means `x <= w` after.
 //!
-//! The scale is a power of two that the whole frame shares; it is part of the format (`Format::of_range`).
+//! The scale is a power of two that the whole frame shares; it is part of the format
+//! (`Format::of_range`).
 
 use crate::number::{Format, OverflowMode, RoundingMode, from_f32_bits};
 use crate::patch::Point;

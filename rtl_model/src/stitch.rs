@@ -1,9 +1,10 @@
 //! Stitch: rows of points in, the triangles between them out, one at a time.
 //!
-//! Moreton 2001, section 5.1: a Bresenham walk. Of the outer row's next segment and the inner row's, the one whose
-//! midpoint comes first on the edge gets the next triangle. Midpoints are never formed: `error` is their difference
-//! over the common denominator, so that no rounding can change the topology. Each half of a side is walked from its
-//! corner to the middle, and the walk is counted: no end needs a special case.
+//! Moreton 2001, section 5.1: a Bresenham walk. Of the outer row's next segment and the inner
+//! row's, the one whose midpoint comes first on the edge gets the next triangle. Midpoints are
+//! never formed: `error` is their difference over the common denominator, so that no rounding can
+//! change the topology. Each half of a side is walked from its corner to the middle, and the walk
+//! is counted: no end needs a special case.
 //!
 //! ```text
 //!     outer  o───o─────o─────o      n segments of the half-edge
@@ -11,8 +12,9 @@
 //!     inner  i─────i─────────i      m segments of the interior's first row
 //! ```
 //!
-//! The interior is a grid whose diagonals point at the patch's centre. Triangles are counter-clockwise with u right
-//! and v up: half 1 of a side and the sides v1 and u0 are walked mirrored, so they swap two vertices.
+//! The interior is a grid whose diagonals point at the patch's centre. Triangles are
+//! counter-clockwise with u right and v up: half 1 of a side and the sides v1 and u0 are walked
+//! mirrored, so they swap two vertices.
 
 mod degenerate;
 
@@ -47,7 +49,8 @@ impl Walk {
 impl Iterator for Walk {
     type Item = Side;
 
-    /// This cycle's triangle. `error` keeps to -128..=126 for half-rows of up to 64 segments: 8 bits.
+    /// This cycle's triangle. `error` keeps to -128..=126 for half-rows of up to 64 segments: 8
+    /// bits.
     #[inline]
     fn next(&mut self) -> Option<Side> {
         if self.left == 0 {

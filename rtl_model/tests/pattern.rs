@@ -1,4 +1,5 @@
-//! The fractional quad pattern against vectors of an independent implementation, and its closed formulas.
+//! The fractional quad pattern against vectors of an independent implementation, and its closed
+//! formulas.
 
 use proptest::prelude::*;
 use rtl_model::patch::{Level, Levels, ONE, Triangle};

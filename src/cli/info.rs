@@ -1,4 +1,5 @@
-//! `info`: what a trace holds. Reads it to its end, so that what has been described is whole and valid.
+//! `info`: what a trace holds. Reads it to its end, so that what has been described is whole and
+//! valid.
 
 use super::{print, table};
 use std::collections::HashMap;

@@ -19,7 +19,8 @@ use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 use tessim::error::Result;
 
-/// Measures GPU tessellation units before they exist: traces of surfaces in, triangles and counters out.
+/// Measures GPU tessellation units before they exist: traces of surfaces in, triangles and counters
+/// out.
 #[derive(Debug, Parser)]
 #[command(name = "tessim", version, max_term_width = 100, disable_help_subcommand = true)]
 #[command(after_help = "Exit codes: 0 done, 1 a check failed, 2 bad input or usage, 3 the system \

@@ -12,8 +12,8 @@ pub(crate) fn print(text: &str) -> Result<()> {
     with(|out| out.write_all(text.as_bytes()))
 }
 
-/// Writes a text to the file at `path`, which appears when it is complete, or to standard output for
-/// none and for `-`.
+/// Writes a text to the file at `path`, which appears when it is complete, or to standard output
+/// for none and for `-`.
 pub(crate) fn to_file_or_stdout(
     path: Option<&Path>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,

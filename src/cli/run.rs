@@ -1,4 +1,5 @@
-//! `run`: a trace through a unit; a table on the terminal, and a result folder where one is asked for.
+//! `run`: a trace through a unit; a table on the terminal, and a result folder where one is asked
+//! for.
 
 use super::config::Layered;
 use super::print;

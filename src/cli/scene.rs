@@ -2,6 +2,7 @@
 
 use super::print;
 use clap::Subcommand;
+use clap::builder::RangedI64ValueParser;
 use rtl_model::level::Criterion as Quantised;
 use rtl_model::patch::Level;
 use std::io::{self, Write};
@@ -48,10 +49,10 @@ enum Scene {
     /// A bumpy surface of as many patches as you like
     Grid {
         /// Patches along y
-        #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65536))]
+        #[arg(long, default_value_t = 32, value_parser = side())]
         rows: u32,
         /// Patches along x
-        #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65536))]
+        #[arg(long, default_value_t = 32, value_parser = side())]
         columns: u32,
         #[command(flatten)]
         levels: Levels,
@@ -59,14 +60,24 @@ enum Scene {
     /// A walk among teacups, instances of resident points
     Teacups {
         /// Cups, 26 patches each
-        #[arg(long, default_value_t = 25, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+        #[arg(long, default_value_t = 25, value_parser = number())]
         count: u32,
         /// Frames
-        #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+        #[arg(long, default_value_t = 10, value_parser = number())]
         frames: u32,
         #[command(flatten)]
         levels: Levels,
     },
+}
+
+/// Patches along a side: their product is the reader's concern, this keeps it within 64 bits.
+fn side() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=65536)
+}
+
+/// Cups and frames: far more than anybody waits for.
+fn number() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=100_000)
 }
 
 /// The tessellation command of a scene.

@@ -1,5 +1,6 @@
-//! What a configuration must satisfy before a unit is built from it: the range of every key, and what
-//! keys demand of each other. Each failure names the key, what was found and what was expected.
+//! What a configuration must satisfy before a unit is built from it: the range of every key, and
+//! what keys demand of each other. Each failure names the key, what was found and what was
+//! expected.
 
 use super::{Config, Criterion, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
@@ -66,7 +67,8 @@ impl Config {
         number("level.level", level.level, in_range)?;
         number("level.min_level", level.min_level, in_range)?;
         number("level.max_level", level.max_level, in_range)?;
-        // Where only one is given, the other is the trace's, and the reader of the trace compares them.
+        // Where only one is given, the other is the trace's, and the reader of the trace compares
+        // them.
         if let (Some(min), Some(max)) = (level.min_level, level.max_level)
             && min > max
         {

@@ -1,7 +1,8 @@
-//! Every key of the configuration: what it means, its unit and range, and what holds when it is absent.
+//! Every key of the configuration: what it means, its unit and range, and what holds when it is
+//! absent.
 //!
-//! One table serves `--set`, the TOML reader, its messages and the commented print-out, so that none
-//! of them can know a key that the others do not. Tests hold it against the types.
+//! One table serves `--set`, the TOML reader, its messages and the commented print-out, so that
+//! none of them can know a key that the others do not. Tests hold it against the types.
 
 /// A key and what is to be said of it.
 #[derive(Clone, Copy, Debug)]

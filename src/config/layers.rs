@@ -1,8 +1,8 @@
 //! Layers: a preset, then a TOML file, then single settings, each over the one before. Out comes a
 //! checked configuration, or an error that says where the offending key was set.
 //!
-//! A key is applied as soon as it is read, so that a wrong value is blamed on its own line. What keys
-//! demand of each other is checked at the end, when the last layer has spoken.
+//! A key is applied as soon as it is read, so that a wrong value is blamed on its own line. What
+//! keys demand of each other is checked at the end, when the last layer has spoken.
 
 use super::preset::Preset;
 use super::{Config, keys};
@@ -70,8 +70,8 @@ impl Layers {
         self.lay(settings)
     }
 
-    /// Lays settings `key=value` over what there is, the later over the earlier. A value is TOML, or a
-    /// bare word for a string.
+    /// Lays settings `key=value` over what there is, the later over the earlier. A value is TOML,
+    /// or a bare word for a string.
     ///
     /// # Errors
     /// [`Error::Usage`]: no `=`, an unknown key, a value of the wrong kind.

@@ -47,13 +47,13 @@ impl Preset {
             // AGP moves data in bursts of quadwords without packets or framing (AGP 2.0, sec. 3).
             // 16 bytes is assumed: a crossbar of four 32-bit DDR channels, bursts of 4.
             Self::Gf3_2001 => (Link { payload: 0, header: 0 }, 16),
-            // PCIe 2: root ports of the time settled on a 128-byte maximum payload. Header of a write
-            // with a 64-bit address 16, sequence number and LCRC 6, framing symbols 2.
-            // GDDR5: a 32-bit channel, bursts of 8.
+            // PCIe 2: root ports of the time settled on a 128-byte maximum payload. Header of a
+            // write with a 64-bit address 16, sequence number and LCRC 6, framing
+            // symbols 2. GDDR5: a 32-bit channel, bursts of 8.
             Self::Hd5870 | Self::Hd6970 => (Link { payload: 128, header: 24 }, 32),
-            // PCIe 4: 256 bytes is what hosts offer; the transaction is framed as above (at 128b/130b
-            // the framing token takes 4 bytes with the sequence number, and the sum is the same).
-            // GDDR6: a 16-bit channel, bursts of 16.
+            // PCIe 4: 256 bytes is what hosts offer; the transaction is framed as above (at
+            // 128b/130b the framing token takes 4 bytes with the sequence number, and
+            // the sum is the same). GDDR6: a 16-bit channel, bursts of 16.
             Self::Modern => (Link { payload: 256, header: 24 }, 32),
         };
         Config { link, memory: Memory { burst }, ..Config::default() }

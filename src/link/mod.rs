@@ -1,8 +1,9 @@
 //! What crosses the link from the host, and what moves in device memory: bytes by kind.
 //!
-//! Sizes on the wire: a command's header 8 (every command but the trace's own header and end), a matrix 64, a float 4,
-//! an index 2 or 4. A command is one transfer: it is cut into packets of at most `link.payload` bytes, each with
-//! `link.header` bytes of framing, and the next command starts a packet of its own.
+//! Sizes on the wire: a command's header 8 (every command but the trace's own header and end), a
+//! matrix 64, a float 4, an index 2 or 4. A command is one transfer: it is cut into packets of at
+//! most `link.payload` bytes, each with `link.header` bytes of framing, and the next command starts
+//! a packet of its own.
 
 use crate::config::{Config, Link};
 use crate::trace::command::{Command, Draw, Points};
@@ -51,7 +52,8 @@ impl Transfer {
         self.payload() + self.overhead(link)
     }
 
-    /// The same transfer with the triangles that a tessellating host sends, indexed over the whole draw.
+    /// The same transfer with the triangles that a tessellating host sends, indexed over the whole
+    /// draw.
     #[must_use]
     pub fn with_triangles(self, vertices: u64, triangles: u64, config: &Config) -> Self {
         let index = if vertices > SHORT_INDEX_MAX { 4 } else { 2 };

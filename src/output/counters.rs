@@ -1,5 +1,5 @@
-//! `counters.csv`: one row a frame and counter, zeros written, in the order of frames and then of the
-//! data.
+//! `counters.csv`: one row a frame and counter, zeros written, in the order of frames and then of
+//! the data.
 //!
 //! No totals and no rates: whoever needs them can add, and a file that says a thing once cannot
 //! contradict itself.

@@ -1,7 +1,7 @@
 //! The distinct edges of a patch's triangles, each once, in the order of first use.
 //!
-//! For `pattern`'s topology `line` and for wireframes. Within one patch only: between patches nothing
-//! is merged.
+//! For `pattern`'s topology `line` and for wireframes. Within one patch only: between patches
+//! nothing is merged.
 
 use rtl_model::patch::Triangle;
 use std::collections::HashMap;

@@ -1,5 +1,5 @@
-//! A file that appears when it is complete: written under another name in the same folder, renamed at
-//! the end, and gone if it never gets there.
+//! A file that appears when it is complete: written under another name in the same folder, renamed
+//! at the end, and gone if it never gets there.
 
 use crate::error::{Error, Result};
 use std::fs::{File, Permissions};
@@ -59,7 +59,8 @@ impl Write for AtomicFile {
     }
 }
 
-/// A file without a name in the folder of `path`, for data whose place in the result is not yet known.
+/// A file without a name in the folder of `path`, for data whose place in the result is not yet
+/// known.
 ///
 /// # Errors
 /// [`Error::System`] when the folder cannot be written.

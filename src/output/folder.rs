@@ -1,7 +1,7 @@
 //! A result folder: built beside its final place and renamed into it when it is complete.
 //!
-//! A folder that is already there is replaced only if everything in it is what a run writes, so that a
-//! mistyped `--out` cannot cost anybody their data.
+//! A folder that is already there is replaced only if everything in it is what a run writes, so
+//! that a mistyped `--out` cannot cost anybody their data.
 
 use super::file;
 use crate::error::{Error, Result};
@@ -28,8 +28,8 @@ impl ResultFolder {
     /// Begins the folder that will be at `target`.
     ///
     /// # Errors
-    /// [`Error::Usage`] when `target` exists and is no tessim result, [`Error::System`] when its parent
-    /// does not exist or cannot be written.
+    /// [`Error::Usage`] when `target` exists and is no tessim result, [`Error::System`] when its
+    /// parent does not exist or cannot be written.
     pub fn create(target: &Path) -> Result<Self> {
         // A link to a result stands for the result.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());

@@ -1,4 +1,5 @@
-//! The mesh of one frame, in the form that was asked for: a [`Sink`] that wants that frame and no other.
+//! The mesh of one frame, in the form that was asked for: a [`Sink`] that wants that frame and no
+//! other.
 
 use super::file::AtomicFile;
 use super::obj::Obj;
@@ -51,8 +52,8 @@ impl MeshFile {
     /// Begins the mesh of frame `number` in `folder`.
     ///
     /// # Errors
-    /// [`Error::Usage`] when the configuration makes nothing to draw, [`Error::System`] when it cannot be
-    /// written there.
+    /// [`Error::Usage`] when the configuration makes nothing to draw, [`Error::System`] when it
+    /// cannot be written there.
     pub fn create(
         form: MeshForm,
         folder: &Path,
@@ -78,7 +79,8 @@ impl MeshFile {
     /// Completes the file.
     ///
     /// # Errors
-    /// [`Error::Usage`] when the frame never came, [`Error::System`] when the file cannot be written.
+    /// [`Error::Usage`] when the frame never came, [`Error::System`] when the file cannot be
+    /// written.
     pub fn finish(self, frames: usize) -> Result<()> {
         if self.frame.is_none() {
             let number = self.number;

@@ -3,8 +3,8 @@
 //!
 //! In come a [`Report`](crate::report::Report) and, patch by patch, meshes through the
 //! [`Sink`](crate::sink::Sink) interface; out come files that two identical runs write byte by byte
-//! the same: no time, no path of the machine, no order that depends on threads. Everything appears by
-//! rename when it is complete.
+//! the same: no time, no path of the machine, no order that depends on threads. Everything appears
+//! by rename when it is complete.
 
 pub mod counters;
 pub mod edges;

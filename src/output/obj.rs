@@ -1,7 +1,7 @@
 //! `mesh.obj`: the mesh of one frame as text, in world space, for programs that read nothing else.
 //!
-//! A group a patch, positions with their parameters as texture coordinates. Streamed: a face may name
-//! any vertex above it. Not exact: who needs the hardware's integers takes the PLY.
+//! A group a patch, positions with their parameters as texture coordinates. Streamed: a face may
+//! name any vertex above it. Not exact: who needs the hardware's integers takes the PLY.
 
 use super::file::AtomicFile;
 use super::space::{parameter, real, ulp, world};

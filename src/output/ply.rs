@@ -1,8 +1,9 @@
 //! `mesh.ply`: the mesh of one frame, binary little endian, exact.
 //!
-//! Patches come in, and go out as they come: vertices and faces into two spools, because the head of a
-//! PLY file states their numbers and all vertices stand before all faces. Memory does not grow with
-//! the mesh. Vertices are never merged across patches, so that a crack stays visible in the data.
+//! Patches come in, and go out as they come: vertices and faces into two spools, because the head
+//! of a PLY file states their numbers and all vertices stand before all faces. Memory does not grow
+//! with the mesh. Vertices are never merged across patches, so that a crack stays visible in the
+//! data.
 
 use super::file::{AtomicFile, spool, unspool};
 use super::space::{parameter, real, ulp, world};

@@ -1,5 +1,5 @@
-//! Numbers of the hardware as real numbers: exact clip coordinates, and positions in world space for
-//! viewing.
+//! Numbers of the hardware as real numbers: exact clip coordinates, and positions in world space
+//! for viewing.
 
 use crate::sink::FrameInfo;
 use rtl_model::number::Format;
@@ -29,8 +29,8 @@ pub fn parameter(raw: u32) -> f64 {
     f64::from(raw) / f64::from(ONE)
 }
 
-/// Where in the world a homogeneous point lies, to f32 precision. Where that is nowhere (w = 0), the
-/// origin: a viewer can do nothing with NaN.
+/// Where in the world a homogeneous point lies, to f32 precision. Where that is nowhere (w = 0),
+/// the origin: a viewer can do nothing with NaN.
 #[must_use]
 pub fn world(frame: &FrameInfo, point: [f64; 4]) -> [f32; 3] {
     let m = &frame.to_world;

@@ -1,5 +1,5 @@
-//! `summary.json`: what a run was made of and what came of it, for programs that do not want to add up
-//! rows: totals, rates with their units, shares, and the hashes that reproduce it.
+//! `summary.json`: what a run was made of and what came of it, for programs that do not want to add
+//! up rows: totals, rates with their units, shares, and the hashes that reproduce it.
 
 use super::counters::unit_name;
 use crate::config::Engine;

@@ -1,10 +1,10 @@
 //! `mesh.svg`: the wireframe of the projected frame.
 //!
-//! Screen positions come in as the unit made them, sub-pixel integers, and go out as they are, scaled
-//! by a transform: the picture shows the hardware's own rounding. Each distinct edge of a patch is
-//! drawn once. Edges of back-facing triangles only are light and lie behind all others; hidden parts
-//! are not removed. Triangles with a vertex that was not divided have no place on the screen: they
-//! are left out and counted in a comment.
+//! Screen positions come in as the unit made them, sub-pixel integers, and go out as they are,
+//! scaled by a transform: the picture shows the hardware's own rounding. Each distinct edge of a
+//! patch is drawn once. Edges of back-facing triangles only are light and lie behind all others;
+//! hidden parts are not removed. Triangles with a vertex that was not divided have no place on the
+//! screen: they are left out and counted in a comment.
 
 use super::edges::{self, FRONT};
 use super::file::{AtomicFile, spool, unspool};
@@ -83,7 +83,8 @@ impl Svg {
     fn head(&self) -> String {
         let ([width, height], title) = (self.viewport, &self.title);
         let one = 1u32 << self.subpixel_bits;
-        // 0.6 pixels in a picture of 1000, and so in proportion, so that it prints the same at any size.
+        // 0.6 pixels in a picture of 1000, and so in proportion, so that it prints the same at any
+        // size.
         let stroke = f64::from(width.max(height)) / 1000.0 * 0.6 * f64::from(one);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -106,14 +107,15 @@ impl Svg {
 }
 
 /// Whether a triangle shows the side where `Su x Sv` points; `None` when it has no place on the
-/// screen. Without area it counts as front: its edges are seen.
+/// screen. Without area it counts as back: at a collapsed edge of a hidden patch such triangles
+/// would shine through, and where the patch is seen their neighbours draw the same edges.
 fn faces_front(screen: &[Screen], triangle: &Triangle, facing: i64) -> Option<bool> {
     let corner = |index: u16| screen.get(usize::from(index)).filter(|s| s.divided);
     let (a, b, c) = (corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?);
     let along = |p: &Screen| (i64::from(p.x - a.x), i64::from(p.y - a.y));
     let ((bx, by), (cx, cy)) = (along(b), along(c));
     // y points down on the screen, so counter-clockwise there is a negative area.
-    Some(-(bx * cy - by * cx) * facing >= 0)
+    Some(-(bx * cy - by * cx) * facing > 0)
 }
 
 /// One path through all `edges`, in runs as long as a walk from edge to edge makes them: the moves

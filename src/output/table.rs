@@ -1,5 +1,5 @@
-//! The table that a run prints: what crossed the link, what became of the patches, what came out, and
-//! what it means, on one screen.
+//! The table that a run prints: what crossed the link, what became of the patches, what came out,
+//! and what it means, on one screen.
 
 use super::counters::unit_name;
 use super::summary::ratio;

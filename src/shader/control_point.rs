@@ -1,4 +1,5 @@
-//! The control-point shader: object-space points in, clip-space points out (Sfarti et al. 2005, section 5).
+//! The control-point shader: object-space points in, clip-space points out (Sfarti et al. 2005,
+//! section 5).
 
 use glam::{Mat4, Vec4, Vec4Swizzles};
 

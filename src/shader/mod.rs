@@ -1,4 +1,4 @@
-//! Programmable cores: f32, a fixed order of operations, no fused multiply-add, so that every machine computes the
-//! same bits and equal control points under equal matrices stay equal.
+//! Programmable cores: f32, a fixed order of operations, no fused multiply-add, so that every
+//! machine computes the same bits and equal control points under equal matrices stay equal.
 
 pub mod control_point;

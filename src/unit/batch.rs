@@ -1,8 +1,8 @@
-//! Patches on their way through the unit: collected until a batch is full, quantised and tessellated on all threads,
-//! handed to the sink in draw order.
+//! Patches on their way through the unit: collected until a batch is full, quantised and
+//! tessellated on all threads, handed to the sink in draw order.
 //!
-//! A batch is bounded, so memory does not grow with the trace; meshes are kept only where the sink wants them, a wave
-//! of patches at a time.
+//! A batch is bounded, so memory does not grow with the trace; meshes are kept only where the sink
+//! wants them, a wave of patches at a time.
 
 use super::frame::FrameState;
 use super::hybrid::Pipeline;
@@ -104,7 +104,8 @@ impl Batch {
         self.draws.push(draw);
     }
 
-    /// Adds points under a matrix, of which the first `repeated` were received before. Returns the index of the first.
+    /// Adds points under a matrix, of which the first `repeated` were received before. Returns the
+    /// index of the first.
     pub fn points(&mut self, clip_from_object: Mat4, points: &[[f32; 4]], repeated: usize) -> u32 {
         let first = self.points.len();
         self.points.extend_from_slice(points);

@@ -1,5 +1,5 @@
-//! What is constant over a frame, derived once from its camera: the position format, the near threshold, which sign
-//! of a determinant faces the viewer, and the way back to world space.
+//! What is constant over a frame, derived once from its camera: the position format, the near
+//! threshold, which sign of a determinant faces the viewer, and the way back to world space.
 
 use crate::config::Config;
 use crate::error::{Error, Result};
@@ -9,7 +9,8 @@ use glam::{DMat4, DVec3, DVec4, Mat4};
 use rtl_model::number::Format;
 use rtl_model::patch::{Depth, View};
 
-/// A camera's w is known to a few units of the last place of an f32: it may exceed a power of two by that much.
+/// A camera's w is known to a few units of the last place of an f32: it may exceed a power of two
+/// by that much.
 const TOLERANCE: f64 = 1e-5;
 
 /// A frame ready to be drawn.
@@ -27,7 +28,8 @@ impl FrameState {
     /// Derives the state of a frame.
     ///
     /// # Errors
-    /// [`Error::Usage`] when the far plane is infinite and neither the trace nor the configuration gives a range.
+    /// [`Error::Usage`] when the far plane is infinite and neither the trace nor the configuration
+    /// gives a range.
     pub fn new(frame: &Frame, config: &Config) -> Result<Self> {
         let projection = Mat4::from_cols_array(&frame.projection);
         let view = Mat4::from_cols_array(&frame.view);
@@ -35,7 +37,8 @@ impl FrameState {
         let given = config.position.clip_range_log2.or(frame.range.clip);
         let range_log2 = given.or_else(|| depths.range_log2()).ok_or_else(|| {
             Error::Usage(
-                "the far plane is infinite: expected \"range\":{\"clip\":..} in the frame, or position.clip_range_log2"
+                "the far plane is infinite: expected \"range\":{\"clip\":..} in the frame, or \
+                 position.clip_range_log2"
                     .into(),
             )
         })?;
@@ -76,7 +79,8 @@ impl Depths {
             let side = |bit: i32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
             let z = if corner & 4 == 0 { first(depth) } else { 1.0 };
             let eye = inverse * DVec4::new(side(0), side(1), z, 1.0);
-            // The corner's eye-space point is eye / eye.w, of which the projection has w = 1 / eye.w.
+            // The corner's eye-space point is eye / eye.w, of which the projection has w = 1 /
+            // eye.w.
             if eye.w > TOLERANCE * 1e-4 * eye.abs().max_element() {
                 depths.nearest = depths.nearest.min(1.0 / eye.w);
                 depths.farthest = depths.farthest.map(|w| w.max(1.0 / eye.w));
@@ -102,11 +106,13 @@ fn first(depth: Depth) -> f64 {
     }
 }
 
-/// The sign of det[S, Su, Sv] over x, y, w where Su x Sv, taken in world space, points to the viewer.
+/// The sign of det[S, Su, Sv] over x, y, w where Su x Sv, taken in world space, points to the
+/// viewer.
 ///
-/// With e the generalised cross product of the rows x, y, w (the camera's centre, homogeneous), that determinant is
-/// det[e, S, Su, Sv] in world space: (e_xyz - e_w p) . N for a point p with normal N. So it is positive towards the
-/// viewer where e_xyz - e_w p points there itself. Parallel projections have e_w = 0 and need no case.
+/// With e the generalised cross product of the rows x, y, w (the camera's centre, homogeneous),
+/// that determinant is det[e, S, Su, Sv] in world space: (e_xyz - e_w p) . N for a point p with
+/// normal N. So it is positive towards the viewer where e_xyz - e_w p points there itself. Parallel
+/// projections have e_w = 0 and need no case.
 fn facing(clip_from_world: DMat4, depth: Depth) -> i64 {
     let [x, y, w] = [0, 1, 3].map(|k| clip_from_world.row(k));
     let minor = |i: usize, j: usize, k: usize| {

@@ -1,5 +1,5 @@
-//! `hybrid`: Sfarti's place in the pipeline and his culling, Moreton's fractional levels, forward differencing and
-//! stitcher. One patch in, its vertices, screen positions and triangles out.
+//! `hybrid`: Sfarti's place in the pipeline and his culling, Moreton's fractional levels, forward
+//! differencing and stitcher. One patch in, its vertices, screen positions and triangles out.
 //!
 //! ```text
 //!   patch ─► clip ─► backface ─► level ─► place ─► evaluate ─► stitch ─► emit ─► vertex shader
@@ -170,6 +170,7 @@ pub(super) fn state(trace: &level::State, config: &Config) -> level::State {
         Some(Name::Fixed) => level::Criterion::Fixed { level: bound(over.level, Level::MIN) },
     };
     let max = bound(over.max_level, trace.max);
-    // One of the bounds may come from the trace and the other from the configuration: the greatest wins.
+    // One of the bounds may come from the trace and the other from the configuration: the greatest
+    // wins.
     level::State { criterion, min: bound(over.min_level, trace.min).min(max), max }
 }

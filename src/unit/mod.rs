@@ -1,8 +1,8 @@
 //! The units under study: which blocks, wired how, which defaults.
 //!
-//! Commands come in, triangles stream into a sink, counters come out. `run` carries out the commands, `frame` derives
-//! what is constant over a frame, `batch` collects patches and spreads them over the threads, `hybrid` is the unit's
-//! pipeline for one patch.
+//! Commands come in, triangles stream into a sink, counters come out. `run` carries out the
+//! commands, `frame` derives what is constant over a frame, `batch` collects patches and spreads
+//! them over the threads, `hybrid` is the unit's pipeline for one patch.
 
 mod batch;
 mod frame;
@@ -21,11 +21,12 @@ pub use batch::Batch;
 pub use frame::FrameState;
 pub use hybrid::Pipeline;
 
-/// Carries out the commands of a trace on the configured unit, in the current rayon pool; any number of threads gives
-/// the same bytes.
+/// Carries out the commands of a trace on the configured unit, in the current rayon pool; any
+/// number of threads gives the same bytes.
 ///
 /// # Errors
-/// The first error of the commands, the sink or the configuration; a frame whose far plane is infinite needs a range.
+/// The first error of the commands, the sink or the configuration; a frame whose far plane is
+/// infinite needs a range.
 pub fn simulate(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,

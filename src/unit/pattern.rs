@@ -13,8 +13,8 @@ pub struct Pattern {
     pub triangles: Vec<Triangle>,
 }
 
-/// The fractional quad pattern of `hybrid` and `moreton`: levels per whole edge in the order v0, u1, v1, u0; interior
-/// levels along u and v, by default the greater of the two edges across.
+/// The fractional quad pattern of `hybrid` and `moreton`: levels per whole edge in the order v0,
+/// u1, v1, u0; interior levels along u and v, by default the greater of the two edges across.
 #[must_use]
 pub fn fractional_quad(edges: [Level; 4], interior: [Option<Level>; 2]) -> Pattern {
     let [v0, u1, v1, u0] = edges;

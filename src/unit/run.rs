@@ -27,7 +27,8 @@ pub(super) struct Run<'a> {
     frame: Option<FrameState>,
     /// Patches of the frame so far.
     patches: u64,
-    /// What each draw of the frame so far sends, apart from its triangles, where the host tessellates.
+    /// What each draw of the frame so far sends, apart from its triangles, where the host
+    /// tessellates.
     draws: Vec<Transfer>,
     tallies: Vec<Tally>,
     batch: Batch,
@@ -118,8 +119,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// What crosses the link where the host tessellates: frames and draws, these with their triangles. Points and
-    /// tessellation state stay with the host.
+    /// What crosses the link where the host tessellates: frames and draws, these with their
+    /// triangles. Points and tessellation state stay with the host.
     fn host(&mut self, transfer: Transfer) {
         self.host_link_bytes += transfer.total(&self.config.link);
         if self.config.unit == Unit::Triangles {

@@ -4,8 +4,8 @@
 
 use crate::lexer::{self, Token, begins};
 
-/// A part of `src`, and the parts that it may import besides itself and the leaves. Link sees traces:
-/// what crosses it is their commands.
+/// A part of `src`, and the parts that it may import besides itself and the leaves. Link sees
+/// traces: what crosses it is their commands.
 const PARTS: [(&str, &[&str]); 9] = [
     ("trace", &[]),
     ("shader", &[]),

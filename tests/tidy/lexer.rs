@@ -9,8 +9,8 @@ pub(crate) struct Token<'a> {
     pub line: usize,
 }
 
-/// The tokens of `text`: words, numbers, and every other character by itself. Comments, and what is in
-/// string and character literals, are left out.
+/// The tokens of `text`: words, numbers, and every other character by itself. Comments, and what is
+/// in string and character literals, are left out.
 pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens = Vec::new();
     let (mut at, mut line) = (0, 1);

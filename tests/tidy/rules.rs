@@ -35,8 +35,8 @@ fn shape(path: &str, text: &str) -> Vec<String> {
     problems
 }
 
-/// The one exemption from the width of lines: the table of counters has a line a counter, which reads
-/// and diffs better than what would come of wrapping it.
+/// The one exemption from the width of lines: the table of counters has a line a counter, which
+/// reads and diffs better than what would come of wrapping it.
 fn counter_table(path: &str, text: &str) -> std::ops::Range<usize> {
     if path != "rtl_model/src/counter.rs" {
         return 0..0;

@@ -1,13 +1,13 @@
 //! The 81 Bernstein coefficients of det[S, Su, Sv] and the decision on their signs.
 //!
-//! With binomials multiplied in, s = C(3,i) C(3,j) P_ij and likewise for the derivatives, products of polynomials
-//! are plain convolutions and no division is needed: 144 cross products make the 36 coefficients of N = Su x Sv,
-//! 576 dot products the 81 of S . N. Their size: 70 * 70 * 6 * 4 * 2^(3(W-1)), 3W + 14 bits with the sign; i128 up to
-//! 36-bit positions, 256 bits beyond.
+//! With binomials multiplied in, s = C(3,i) C(3,j) P_ij and likewise for the derivatives, products
+//! of polynomials are plain convolutions and no division is needed: 144 cross products make the 36
+//! coefficients of N = Su x Sv, 576 dot products the 81 of S . N. Their size: 70 * 70 * 6 * 4 *
+//! 2^(3(W-1)), 3W + 14 bits with the sign; i128 up to 36-bit positions, 256 bits beyond.
 //!
-//! Most patches are decided earlier, with the same result: by one of the four corners, which are exact and cheap, or
-//! by 15-bit truncations of S, Su, Sv in 64-bit arithmetic with an error bound. Only a coefficient within that bound
-//! of zero calls for the exact ones.
+//! Most patches are decided earlier, with the same result: by one of the four corners, which are
+//! exact and cheap, or by 15-bit truncations of S, Su, Sv in 64-bit arithmetic with an error bound.
+//! Only a coefficient within that bound of zero calls for the exact ones.
 
 use crate::number::Wide;
 use ethnum::I256;
@@ -26,7 +26,8 @@ const BINOMIAL_2: [i64; 3] = [1, 2, 1];
 const BINOMIAL_3: [i64; 4] = [1, 3, 3, 1];
 const BINOMIAL_8: [i64; 9] = [1, 8, 28, 56, 70, 56, 28, 8, 1];
 
-/// Whether the surface has no coefficient towards the viewer; `points` are x, y, w with positive volumes in front.
+/// Whether the surface has no coefficient towards the viewer; `points` are x, y, w with positive
+/// volumes in front.
 #[must_use]
 pub fn tangent_plane(points: &[Row<i64>; 16], width: u32) -> bool {
     if faces_at_a_corner(points) {
@@ -124,13 +125,15 @@ fn faces_at_a_corner(points: &[Row<i64>; 16]) -> bool {
 
 /// The verdict where 15 bits suffice for it.
 fn estimate(points: &[Row<i64>; 16]) -> Option<bool> {
-    // Truncated before the binomials are multiplied in: 15 bits hold a control point, not its multiple.
+    // Truncated before the binomials are multiplied in: 15 bits hold a control point, not its
+    // multiple.
     let mut factors = Factors::of(points);
     let ms = truncate(&mut factors.s);
     let (mu, mv) = (truncate(&mut factors.su), truncate(&mut factors.sv));
     let estimates: [[i64; 9]; 9] = factors.weighted().determinant();
-    // Truncation moves each factor by less than one: (s+1)(u+1)(v+1) - suv for each of the six products of a 3 x 3
-    // determinant. Binomial weights of a coefficient add up to C(8,k) C(8,l).
+    // Truncation moves each factor by less than one: (s+1)(u+1)(v+1) - suv for each of the six
+    // products of a 3 x 3 determinant. Binomial weights of a coefficient add up to C(8,k)
+    // C(8,l).
     let slack = 6 * (mu * mv + ms * mv + ms * mu + ms + mu + mv + 1);
     let mut certain = true;
     for (k, row) in estimates.iter().enumerate() {
@@ -145,7 +148,8 @@ fn estimate(points: &[Row<i64>; 16]) -> Option<bool> {
     certain.then_some(true)
 }
 
-/// Shifts all components down until the largest fits the estimate; returns the largest magnitude left.
+/// Shifts all components down until the largest fits the estimate; returns the largest magnitude
+/// left.
 fn truncate<const N: usize>(rows: &mut [Row<i64>; N]) -> i64 {
     let largest = rows.iter().flatten().map(|c| c.unsigned_abs()).max().unwrap_or(0);
     let bits = u64::BITS - largest.leading_zeros();

@@ -1,5 +1,6 @@
-//! De Casteljau's triangle at the reported parameters, each interpolation rounded once and symmetric in its ends:
-//! so a reversed edge gives the same bits, for its parameters are exactly 1 - u.
+//! De Casteljau's triangle at the reported parameters, each interpolation rounded once and
+//! symmetric in its ends: so a reversed edge gives the same bits, for its parameters are exactly 1
+//! - u.
 
 use crate::number::{RoundingMode, lerp};
 use crate::patch::Point;
@@ -13,7 +14,8 @@ pub fn curve_point<R: RoundingMode>(curve: &[Point; 4], t: u32) -> Point {
     triangle::<R>(curve, t)[2]
 }
 
-/// The last two points of the triangle, whose difference is a third of the derivative, and the point between them.
+/// The last two points of the triangle, whose difference is a third of the derivative, and the
+/// point between them.
 pub(super) fn triangle<R: RoundingMode>([a, b, c, d]: &[Point; 4], t: u32) -> [Point; 3] {
     let mix =
         |p: &Point, q: &Point| -> Point { std::array::from_fn(|i| lerp::<R>(p[i], q[i], t, 16)) };
@@ -22,7 +24,8 @@ pub(super) fn triangle<R: RoundingMode>([a, b, c, d]: &[Point; 4], t: u32) -> [P
     [abc, bcd, mix(&abc, &bcd)]
 }
 
-/// Evaluates the list's inner entries; `out` has a place for each. Returns half-runs (none) and points evaluated.
+/// Evaluates the list's inner entries; `out` has a place for each. Returns half-runs (none) and
+/// points evaluated.
 pub(super) fn run<R: RoundingMode, S: Slot>(
     curve: &[Point; 4],
     list: &List,

@@ -1,18 +1,21 @@
-//! Forward differencing in half-runs: from each end of a cubic to its middle, a step of three additions a vertex.
+//! Forward differencing in half-runs: from each end of a cubic to its middle, a step of three
+//! additions a vertex.
 //!
-//! Moreton 2001 (half-edges, reversed curves); the set-up in integers is ours. With W the position width, g the guard
-//! bits and R = 1/level in U0.32 (the truncated reciprocal that also made the parameters):
+//! Moreton 2001 (half-edges, reversed curves); the set-up in integers is ours. With W the position
+//! width, g the guard bits and R = 1/level in U0.32 (the truncated reciprocal that also made the
+//! parameters):
 //!
 //! ```text
 //!   a = -B0+3B1-3B2+B3   b = 3B0-6B1+3B2   c = 3(B1-B0)        exact, W + 4 bits
 //!   h2 = R R                                                    64 fraction bits, exact
 //!   h3 = (h2 R) >> 32                                           64 fraction bits, truncated
 //!   D1 = a h3 + b h2 + c R    D2 = 6a h3 + 2b h2    D3 = 6a h3  rounded half up to g bits, once
-//!   D0 = B0 << g;  a step: D0 += D1, D1 += D2, D2 += D3;        vertex = D0 rounded to the position format
+//!   D0 = B0 << g;  a step: D0 += D1, D1 += D2, D2 += D3;        vertex = D0 rounded to position bits
 //! ```
 //!
-//! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run from the other end
-//! is the same on B3..B0, for which a changes its sign only. So a reversed edge gives the same bits.
+//! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run
+//! from the other end is the same on B3..B0, for which a changes its sign only. So a reversed edge
+//! gives the same bits.
 
 use super::Slot;
 use crate::number::{Rounding, RoundingMode, shift_right};
@@ -22,19 +25,21 @@ use crate::place::List;
 /// Steps of a half-run at most.
 const STEPS_MAX: i64 = 64;
 
-/// How far, in output ulps rounded up, an output may leave the hull of the control points: with every coefficient
-/// off by half an accumulator ulp, n/2 + C(n,2)/2 + C(n,3)/2 of those after n steps, and the output's rounding.
+/// How far, in output ulps rounded up, an output may leave the hull of the control points: with
+/// every coefficient off by half an accumulator ulp, n/2 + C(n,2)/2 + C(n,3)/2 of those after n
+/// steps, and the output's rounding.
 pub(super) fn error_max(guard: u32) -> i64 {
     const N: i64 = STEPS_MAX;
     const ULPS: i64 = (N + N * (N - 1) / 2 + N * (N - 1) * (N - 2) / 6) / 2;
     (ULPS >> guard) + 2
 }
 
-/// What D0 is kept above its value, so that it is never negative and a logical shift rounds it: vectors of 64-bit
-/// integers have no arithmetic one. Even after the shift, so parity is kept.
+/// What D0 is kept above its value, so that it is never negative and a logical shift rounds it:
+/// vectors of 64-bit integers have no arithmetic one. Even after the shift, so parity is kept.
 const OFFSET: u64 = 1 << 61;
 
-/// Difference registers, x y z w each, `guard` fraction bits below the position's; D0 with its offset.
+/// Difference registers, x y z w each, `guard` fraction bits below the position's; D0 with its
+/// offset.
 #[derive(Clone, Copy)]
 struct Registers {
     d0: [u64; 4],
@@ -69,7 +74,8 @@ impl Registers {
     }
 }
 
-/// Runs a curve from both ends; `out` has a place for each inner entry of the list. Returns half-runs and steps.
+/// Runs a curve from both ends; `out` has a place for each inner entry of the list. Returns
+/// half-runs and steps.
 pub(super) fn run<R: RoundingMode, S: Slot>(
     curve: &[Point; 4],
     list: &List,
@@ -90,7 +96,8 @@ pub(super) fn run<R: RoundingMode, S: Slot>(
         set_up::<Unsigned>(curve, r, guard)
     };
     if list.crosses_centre() {
-        // 1 < level < 2: each end's single step passes the centre and makes the other half's vertex.
+        // 1 < level < 2: each end's single step passes the centre and makes the other half's
+        // vertex.
         near.step();
         far.step();
         out[1].put(near.output::<R>(guard));
@@ -171,5 +178,6 @@ impl Product for Unsigned {
 #[inline(always)]
 fn rounded(sum: i128, guard: u32) -> u64 {
     let sum = sum + (1 << (63 - guard));
-    (((sum as u128) << (guard & 63)) >> 64) as u64 // guard < 64, said so that one funnel shift does it
+    // guard < 64, said so that one funnel shift does it.
+    (((sum as u128) << (guard & 63)) >> 64) as u64
 }

@@ -1,9 +1,9 @@
 //! The tangent plane at a vertex, from which a shader takes its normal.
 //!
-//! A unit that works in clip space cannot cross Su with Sv: lengths mean nothing there. The plane through S, Su and
-//! Sv does survive the transform: with `M` the matrix from world to clip space, the world normal is the first three
-//! components of `M^T plane`. Its coefficients are the four 3 x 3 minors of (S, Su, Sv), with the signs that make
-//! `plane . p` = det[p, S, Su, Sv].
+//! A unit that works in clip space cannot cross Su with Sv: lengths mean nothing there. The plane
+//! through S, Su and Sv does survive the transform: with `M` the matrix from world to clip space,
+//! the world normal is the first three components of `M^T plane`. Its coefficients are the four 3 x
+//! 3 minors of (S, Su, Sv), with the signs that make `plane . p` = det[p, S, Su, Sv].
 
 use super::casteljau;
 use crate::number::{NearestEven, Wide, shift_right_wide};
@@ -18,7 +18,8 @@ pub type Plane = [i64; 4];
 
 /// The tangent plane of the patch at (u, v), both U1.16.
 ///
-/// S, Su, Sv are de Casteljau points rounded to nearest even in the position format. 3 W + 5 bits, 256 from W = 41 on.
+/// S, Su, Sv are de Casteljau points rounded to nearest even in the position format. 3 W + 5 bits,
+/// 256 from W = 41 on.
 #[must_use]
 pub fn tangent_plane(patch: &Patch, u: u32, v: u32) -> Plane {
     let p = &patch.points;
@@ -55,7 +56,8 @@ impl Coefficient for I256 {
     }
 
     fn shifted(self, down: u32) -> i64 {
-        // To 96 bits exactly enough: what is cut off is below the rounding of any tie that matters to a direction.
+        // To 96 bits exactly enough: what is cut off is below the rounding of any tie that matters
+        // to a direction.
         let coarse = down.saturating_sub(64);
         ((self >> coarse).as_i128()).shifted(down - coarse)
     }

@@ -1,12 +1,12 @@
-//! The two criteria that look at pixels: lengths of differences between projected control points, and levels from
-//! them, all in integers and rounded up, so that a bound stays a bound.
+//! The two criteria that look at pixels: lengths of differences between projected control points,
+//! and levels from them, all in integers and rounded up, so that a bound stays a bound.
 
 use super::{Asked, Pixel, State, clamp};
 use crate::number::sqrt_ceil;
 use crate::patch::EDGES;
 
-/// Rounding moves a projected coordinate by up to half an ulp, a second difference by 2 and its length by less than 3:
-/// added, so that the rounded points bound the true ones.
+/// Rounding moves a projected coordinate by up to half an ulp, a second difference by 2 and its
+/// length by less than 3: added, so that the rounded points bound the true ones.
 const SLACK: u128 = 3;
 
 /// Lines of the net: rows along u, columns along v.
@@ -52,7 +52,8 @@ fn curve_level(bend: u128, pixels: u32) -> u64 {
     sqrt_ceil(((3 * bend) << 30).div_ceil(u128::from(pixels))) as u64
 }
 
-/// Levels along u and v for which 6 Muu/n^2 + 18 Muv/(n m) + 6 Mvv/m^2 <= 8 d, M the second differences of the net.
+/// Levels along u and v for which 6 Muu/n^2 + 18 Muv/(n m) + 6 Mvv/m^2 <= 8 d, M the second
+/// differences of the net.
 fn interior(
     points: &[Pixel; 16],
     pixels: u32,
@@ -70,7 +71,8 @@ fn interior(
         Some(u128::from(clamp(level, state).fx16()))
     };
     let (n, m) = (start(edges[0], edges[2], uu)?, start(edges[1], edges[3], vv)?);
-    // ... both are raised by sqrt(bound / d) where the bound exceeds d. 24 bits each for n and m, 45 for M.
+    // ... both are raised by sqrt(bound / d) where the bound exceeds d. 24 bits each for n and m,
+    // 45 for M.
     let bound = 6 * uu * m * m + 18 * uv * n * m + 6 * vv * n * n;
     let pixels = u128::from(pixels);
     let raised = |level: u128, across: u128| {

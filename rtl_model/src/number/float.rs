@@ -1,15 +1,18 @@
-//! The bits of an IEEE 754 single in, an integer out: the port's converter. No floating-point arithmetic.
+//! The bits of an IEEE 754 single in, an integer out: the port's converter. No floating-point
+//! arithmetic.
 
 use super::{RoundingMode, shift_right};
 
-/// Set in the magnitude of what fits no format. The 48 bits below are the value's own, so that wrapping is right too.
+/// Set in the magnitude of what fits no format. The 48 bits below are the value's own, so that
+/// wrapping is right too.
 const HUGE: i64 = 1 << 60;
 
 /// Bits of the widest format.
 const LOW: i64 = (1 << 48) - 1;
 
-/// `round(value * 2^fraction)` of the single with these bits, exact and rounded once; from 2^62 on, an integer beyond
-/// every format with the same low 48 bits. So are infinities; a NaN is `None`: the port says what it does with one.
+/// `round(value * 2^fraction)` of the single with these bits, exact and rounded once; from 2^62 on,
+/// an integer beyond every format with the same low 48 bits. So are infinities; a NaN is `None`:
+/// the port says what it does with one.
 #[must_use]
 #[inline]
 pub fn from_f32_bits<R: RoundingMode>(bits: u32, fraction: i32) -> Option<i64> {

@@ -2,8 +2,8 @@
 
 use super::{Overflow, OverflowMode};
 
-/// A signed fixed-point format: `width` bits in all, of which `fraction` stand behind the binary point. `fraction` may
-/// be negative or exceed `width`: the point then lies outside the bits.
+/// A signed fixed-point format: `width` bits in all, of which `fraction` stand behind the binary
+/// point. `fraction` may be negative or exceed `width`: the point then lies outside the bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Format {
     /// Bits in all, with the sign: 2..=48.

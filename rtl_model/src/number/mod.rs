@@ -1,8 +1,10 @@
-//! Fixed-point numbers whose format is chosen at run time: `i64` storage, `i128` products, 256 bits for decisions.
+//! Fixed-point numbers whose format is chosen at run time: `i64` storage, `i128` products, 256 bits
+//! for decisions.
 //!
-//! A value is a raw integer; what it stands for is a [`Format`] that its surroundings know. Every operation computes
-//! exactly and then rounds once, by a named [`Rounding`], and fits once, by a named [`Overflow`]. In hot loops both
-//! are type parameters ([`dispatch`]), so that the modes cost nothing there; widths stay run-time values.
+//! A value is a raw integer; what it stands for is a [`Format`] that its surroundings know. Every
+//! operation computes exactly and then rounds once, by a named [`Rounding`], and fits once, by a
+//! named [`Overflow`]. In hot loops both are type parameters ([`dispatch`]), so that the modes cost
+//! nothing there; widths stay run-time values.
 
 mod float;
 mod format;

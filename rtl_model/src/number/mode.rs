@@ -22,7 +22,8 @@ pub enum Rounding {
 pub enum Overflow {
     /// The low bits are kept, as two's complement.
     Wrap,
-    /// The nearest end of the symmetric range +-(2^(width-1) - 1), so that fitting is odd and monotone.
+    /// The nearest end of the symmetric range +-(2^(width-1) - 1), so that fitting is odd and
+    /// monotone.
     Saturate,
 }
 

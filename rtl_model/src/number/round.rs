@@ -3,10 +3,11 @@
 use super::{Rounding, RoundingMode};
 use std::cmp::Ordering;
 
-/// What is added before an arithmetic shift by `n >= 1` places, so that the shift rounds as `R` says.
+/// What is added before an arithmetic shift by `n >= 1` places, so that the shift rounds as `R`
+/// says.
 ///
-/// `odd`: the integer part is odd. `negative`: the value is negative. Half a unit is `half`; ties are moved below the
-/// next integer by taking one unit in the last place off it.
+/// `odd`: the integer part is odd. `negative`: the value is negative. Half a unit is `half`; ties
+/// are moved below the next integer by taking one unit in the last place off it.
 #[inline(always)]
 fn bias<R: RoundingMode>(half: i64, odd: i64, negative: i64) -> i64 {
     match R::MODE {
@@ -76,7 +77,8 @@ fn divide_narrow<R: RoundingMode>(numerator: i64, denominator: i64) -> i64 {
     quotient + i64::from(up)
 }
 
-/// A divisor of several numerators, whose reciprocal is formed once: one division, then a multiplication each.
+/// A divisor of several numerators, whose reciprocal is formed once: one division, then a
+/// multiplication each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Divisor {
     value: u64,
@@ -95,13 +97,14 @@ impl Divisor {
         Self { value, reciprocal: (1 << 63) / value }
     }
 
-    /// `round(numerator / value)`, correctly rounded where it lies in -`zero`..`zero`, and otherwise some integer
-    /// outside of that; for |numerator| < 2^60 and value * `zero` < 2^61.
+    /// `round(numerator / value)`, correctly rounded where it lies in -`zero`..`zero`, and
+    /// otherwise some integer outside of that; for |numerator| < 2^60 and value * `zero` <
+    /// 2^61.
     #[must_use]
     #[inline(always)]
     pub fn divide<R: RoundingMode>(self, numerator: i64, zero: u64) -> i64 {
-        // From -zero on the number line is positive, and floor is what a truncated product gives. Rounding to nearest
-        // is the floor of one half more.
+        // From -zero on the number line is positive, and floor is what a truncated product gives.
+        // Rounding to nearest is the floor of one half more.
         let half = if matches!(R::MODE, Rounding::Floor) { 0 } else { self.value };
         let (double, shifted) = (2 * self.value, (2 * numerator) as u64);
         let from_zero = shifted.wrapping_add(double.wrapping_mul(zero)).wrapping_add(half);
@@ -133,8 +136,8 @@ fn rounds_up<R: RoundingMode>(past_half: Ordering, odd: bool, negative: bool) ->
     }
 }
 
-/// `round(a * (1 - t) + b * t)` with `t` an unsigned fraction of `n` bits, 0 to 2^n: one rounding, so that swapping
-/// the ends gives the same bits (a + (b - a) * t would not).
+/// `round(a * (1 - t) + b * t)` with `t` an unsigned fraction of `n` bits, 0 to 2^n: one rounding,
+/// so that swapping the ends gives the same bits (a + (b - a) * t would not).
 #[must_use]
 #[inline]
 pub fn lerp<R: RoundingMode>(a: i64, b: i64, t: u32, n: u32) -> i64 {

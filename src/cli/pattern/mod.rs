@@ -16,10 +16,10 @@ use tessim::error::{Error, Result};
 /// Print the tessellation pattern of given factors as JSON
 ///
 /// Unit hybrid takes quads with partitioning fractional: the levels of the edges v0 u1 v1 u0 in
-/// segments per whole edge, then optionally those of the interior along u and v. Factors are read as
-/// f32 (nan, inf and -inf too), rounded to UQ8.16 (to nearest, ties to even) and clamped to 1..=128;
-/// nan counts as 1. Points are in U1.16. Indices are flat: 3 a triangle, 2 a line (each distinct edge
-/// once, in the order of first use: our choice), 1 a point.
+/// segments per whole edge, then optionally those of the interior along u and v. Factors are read
+/// as f32 (nan, inf and -inf too), rounded to UQ8.16 (to nearest, ties to even) and clamped to
+/// 1..=128; nan counts as 1. Points are in U1.16. Indices are flat: 3 a triangle, 2 a line (each
+/// distinct edge once, in the order of first use: our choice), 1 a point.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  tessim pattern --topology ccw --factors 3.3,2.7,5.1,4.2,3,2\n  \

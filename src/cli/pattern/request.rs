@@ -37,7 +37,8 @@ pub(super) enum Topology {
     Ccw,
 }
 
-/// A factor as it was given. JSON has no numbers for those that are not finite: they become strings.
+/// A factor as it was given. JSON has no numbers for those that are not finite: they become
+/// strings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factor(pub(super) f32);
 
@@ -73,8 +74,8 @@ pub(super) struct Request {
 /// Why there is none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
-    /// Which factor, from 0: the one that is wrong, or the place of the one that is missing. `None`:
-    /// the words before the factors.
+    /// Which factor, from 0: the one that is wrong, or the place of the one that is missing.
+    /// `None`: the words before the factors.
     pub(super) factor: Option<usize>,
     pub(super) message: String,
 }
