@@ -2,7 +2,12 @@
 //! counters, and the expected counters of every shipped trace (`UPDATE_EXPECT=1` rewrites those,
 //! for a person to read the difference).
 
-mod common;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/random.rs"]
+mod random;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/run.rs"]
+mod run;
 
 use rtl_model::counter::Counter as C;
 use rtl_model::counter::Counters;
@@ -194,25 +199,24 @@ fn laws(c: &Counters, config: &Config) {
 
 #[test]
 fn counters_conserve_what_flows_under_every_configuration() {
-    let mut random = common::Random(6);
+    let mut random = random::Random::new(6);
     let mut frames = 0;
-    for _ in 0..common::scale(60, 1000) {
+    for _ in 0..run::scale(60, 1000) {
         let mut config = Config::default();
-        config.position.width = 8 + random.below(41) as u32;
-        config.position.clip_range_log2 = random.pick(&[None, Some(0), Some(4)]);
-        config.backface.method = random.pick(&[
+        config.position.width = 8 + random.integer(0, 40);
+        config.position.clip_range_log2 = random.of([None, Some(0), Some(4)]);
+        config.backface.method = random.of([
             BackfaceMethod::Off,
             BackfaceMethod::NetFacets,
             BackfaceMethod::TangentPlane,
         ]);
-        config.clip.enabled = random.below(3) > 0;
-        config.emit.divide = random.below(3) > 0;
-        config.evaluate.scheme =
-            random.pick(&[Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
-        config.evaluate.normals = random.pick(&[Normals::Off, Normals::TangentPlane]);
-        config.link.payload = random.pick(&[128, 256]);
-        config.memory.burst = random.pick(&[16, 32, 64]);
-        config.level.max_level = random.pick(&[None, Some(4.0)]);
+        config.clip.enabled = random.integer(0, 2) > 0;
+        config.emit.divide = random.integer(0, 2) > 0;
+        config.evaluate.scheme = random.of([Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
+        config.evaluate.normals = random.of([Normals::Off, Normals::TangentPlane]);
+        config.link.payload = random.of([128, 256]);
+        config.memory.burst = random.of([16, 32, 64]);
+        config.level.max_level = random.of([None, Some(4.0)]);
         for name in SHIPPED {
             for counters in &run_text(&shipped(name), &config).expect("a shipped trace").frames {
                 laws(counters, &config);
