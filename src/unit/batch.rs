@@ -263,7 +263,7 @@ impl Work<'_> {
             if pipeline.accept(&self.gather(pending, draw), &draw.state) {
                 pieces.tally(draw.number, pipeline);
                 if keep {
-                    pieces.keep(pending.id, draw.reversed, &pipeline);
+                    pieces.keep(pending.id, draw.reversed, pipeline);
                 }
             }
         }
