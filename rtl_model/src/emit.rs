@@ -8,7 +8,7 @@
 use crate::number::{
     Divisor, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide,
 };
-use crate::patch::{Triangle, Vertex, View};
+use crate::patch::{Vertex, View};
 
 /// A vertex on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,19 +35,6 @@ pub struct Settings {
 pub fn accept(vertices: &[Vertex], view: &View, settings: Settings, out: &mut Vec<Screen>) -> u64 {
     let work = Work { vertices, view, subpixel_bits: settings.subpixel_bits, out };
     dispatch(settings.rounding, Overflow::Saturate, work)
-}
-
-/// Triangles with two equal clip positions.
-#[must_use]
-pub fn degenerate(vertices: &[Vertex], triangles: &[Triangle]) -> u64 {
-    let at = |k: u16| &vertices[usize::from(k)].position;
-    let is_degenerate = |t: &&Triangle| {
-        let (a, b, c) = (at(t[0]), at(t[1]), at(t[2]));
-        // Almost always x tells, without a branch a comparison.
-        let same_x = (a[0] == b[0]) | (b[0] == c[0]) | (c[0] == a[0]);
-        same_x && (a == b || b == c || c == a)
-    };
-    triangles.iter().filter(is_degenerate).count() as u64
 }
 
 struct Work<'a> {

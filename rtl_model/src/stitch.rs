@@ -16,8 +16,12 @@
 //! counter-clockwise with u right and v up: half 1 of a side and the sides v1 and u0 are walked
 //! mirrored, so they swap two vertices.
 
+mod degenerate;
+
 use crate::patch::{Level, Triangle};
 use crate::place::Placement;
+
+pub use degenerate::Degenerate;
 
 /// One Bresenham walk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +67,35 @@ impl Iterator for Walk {
     }
 }
 
-/// Appends the triangles of a patch to `out`.
+/// The block, which keeps the triangles of its last patch: the next one has the same where its lists have as many
+/// segments, for topology depends on nothing else.
+#[derive(Clone, Debug, Default)]
+pub struct Stitch {
+    segments: [usize; 6],
+    triangles: Vec<Triangle>,
+}
+
+impl Stitch {
+    /// Stitches a patch.
+    pub fn accept(&mut self, placement: &Placement) -> &[Triangle] {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|edge| placement.edges[edge].segments());
+        let segments = [a, b, c, d, placement.u.segments(), placement.v.segments()];
+        if segments != self.segments {
+            self.segments = segments;
+            self.triangles.clear();
+            accept(placement, &mut self.triangles);
+        }
+        &self.triangles
+    }
+
+    /// The triangles of the last patch.
+    #[must_use]
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+}
+
+/// Appends the triangles of a patch to `out`: the interior grid's, then side by side.
 pub fn accept(placement: &Placement, out: &mut Vec<Triangle>) {
     let stitcher = Stitcher::new(placement);
     out.reserve(2 * placement.vertices());
@@ -75,6 +107,12 @@ pub fn accept(placement: &Placement, out: &mut Vec<Triangle>) {
     for side in 0..4 {
         stitcher.side(side, out);
     }
+}
+
+/// How many of a patch's triangles are the interior grid's: the first ones.
+fn grid_triangles(placement: &Placement) -> usize {
+    let [columns, rows] = placement.interior();
+    2 * columns.saturating_sub(1) * rows.saturating_sub(1)
 }
 
 struct Stitcher<'a> {

@@ -210,3 +210,17 @@ proptest! {
         }
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+    #[test]
+    fn a_stitcher_that_keeps_its_triangles_never_hands_out_stale_ones(
+        levels in prop::collection::vec(prop::array::uniform4(prop_oneof![level(), 3 * ONE..5 * ONE]), 1..12),
+    ) {
+        let mut stitch = stitch::Stitch::default();
+        for e in levels {
+            let (placement, _, fresh) = pattern(e, across(e));
+            prop_assert_eq!(stitch.accept(&placement), &fresh[..]);
+        }
+    }
+}

@@ -2,8 +2,6 @@
 //! f64 and unrounded.
 
 use super::Real;
-use rtl_model::patch::{Triangle, Vertex};
-use std::collections::HashSet;
 
 /// The greatest magnitude of a screen coordinate, in pixels.
 pub const BAND: f64 = 32768.0;
@@ -13,13 +11,4 @@ pub const BAND: f64 = 32768.0;
 pub fn screen([x, y, _, w]: Real, [width, height]: [u32; 2]) -> Option<[f64; 2]> {
     let (x, y) = (x / w, y / w); // normalised device coordinates
     (w > 0.0).then(|| [f64::from(width) * 0.5 * (1.0 + x), f64::from(height) * 0.5 * (1.0 - y)])
-}
-
-/// Triangles whose corners stand at fewer than three positions.
-#[must_use]
-pub fn degenerate(vertices: &[Vertex], triangles: &[Triangle]) -> u64 {
-    let positions = |t: &Triangle| -> HashSet<_> {
-        t.iter().map(|&k| vertices[usize::from(k)].position).collect()
-    };
-    triangles.iter().filter(|t| positions(t).len() < 3).count() as u64
 }

@@ -7,6 +7,8 @@
 //! parameters can make 0.
 
 use super::place::{Entry, Fraction, Placed};
+use rtl_model::patch::{Triangle, Vertex};
+use std::collections::HashSet;
 
 /// A vertex: its number, and whole coordinates that grow as u and v do.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +16,15 @@ struct Corner {
     number: usize,
     x: i64,
     y: i64,
+}
+
+/// Triangles whose corners stand at fewer than three positions.
+#[must_use]
+pub fn degenerate(vertices: &[Vertex], triangles: &[Triangle]) -> u64 {
+    let positions = |t: &Triangle| -> HashSet<_> {
+        t.iter().map(|&k| vertices[usize::from(k)].position).collect()
+    };
+    triangles.iter().filter(|t| positions(t).len() < 3).count() as u64
 }
 
 /// The triangles by vertex number, each with its least number first, sorted.

@@ -288,7 +288,7 @@ impl Pieces {
         let tally = Tally {
             draw,
             vertices: made.vertices.len() as u64,
-            triangles: made.triangles.len() as u64,
+            triangles: made.triangles().len() as u64,
         };
         add(&mut self.tallies, tally);
     }
@@ -296,7 +296,7 @@ impl Pieces {
     fn keep(&mut self, id: u32, reversed: bool, made: &Pipeline) {
         self.vertices.extend_from_slice(&made.vertices);
         self.screen.extend_from_slice(&made.screen);
-        self.triangles.extend_from_slice(&made.triangles);
+        self.triangles.extend_from_slice(made.triangles());
         self.patches.push(Piece {
             id,
             reversed,

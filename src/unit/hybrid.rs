@@ -13,7 +13,8 @@ use rtl_model::evaluate::Evaluate;
 use rtl_model::number::Format;
 use rtl_model::patch::{Level, Patch, Triangle, Vertex, View};
 use rtl_model::place::Placement;
-use rtl_model::{backface, clip, emit, evaluate, level, stitch};
+use rtl_model::stitch::{Degenerate, Stitch};
+use rtl_model::{backface, clip, emit, evaluate, level};
 
 /// The blocks of one pipeline and what they made of the patch before.
 #[derive(Clone, Debug)]
@@ -26,8 +27,8 @@ pub struct Pipeline<'a> {
     pub vertices: Vec<Vertex>,
     /// Their screen positions, where the divide is on.
     pub screen: Vec<Screen>,
-    /// Triangles of the last patch.
-    pub triangles: Vec<Triangle>,
+    stitch: Stitch,
+    degenerate: Degenerate,
     /// What all patches cost.
     pub counters: Counters,
 }
@@ -43,15 +44,21 @@ impl<'a> Pipeline<'a> {
             evaluate: Evaluate::new(settings(config, view.position)),
             vertices: Vec::new(),
             screen: Vec::new(),
-            triangles: Vec::new(),
+            stitch: Stitch::default(),
+            degenerate: Degenerate::default(),
             counters: Counters::default(),
         }
+    }
+
+    /// Triangles of the last patch.
+    #[must_use]
+    pub fn triangles(&self) -> &[Triangle] {
+        self.stitch.triangles()
     }
 
     /// Takes a patch through all blocks. Returns whether anything is left of it.
     pub fn accept(&mut self, patch: &Patch, state: &level::State) -> bool {
         self.screen.clear();
-        self.triangles.clear();
         self.keeps(patch) && {
             self.place(patch, state);
             self.shape(patch);
@@ -93,15 +100,15 @@ impl<'a> Pipeline<'a> {
     /// Evaluate and stitch.
     fn shape(&mut self, patch: &Patch) {
         let cost = self.evaluate.accept(patch, &self.placement, &mut self.vertices);
-        stitch::accept(&self.placement, &mut self.triangles);
-        let degenerate = emit::degenerate(&self.vertices, &self.triangles);
+        let triangles = self.stitch.accept(&self.placement);
+        let degenerate = self.degenerate.count(&self.placement, &self.vertices, triangles);
         let counters = &mut self.counters;
         counters.add(Counter::EvaluateInvocations, cost.invocations);
         counters.add(Counter::EvaluateVertices, self.vertices.len() as u64);
         counters.add(Counter::EvaluateCurves, cost.curves);
         counters.add(Counter::EvaluateSteps, cost.steps);
         counters.add(Counter::EvaluateOverflows, cost.overflows);
-        counters.add(Counter::StitchTriangles, self.triangles.len() as u64);
+        counters.add(Counter::StitchTriangles, triangles.len() as u64);
         counters.add(Counter::StitchDegenerate, degenerate);
         if self.config.evaluate.normals == Normals::TangentPlane {
             let planes = self.vertices.iter().map(|v| evaluate::tangent_plane(patch, v.u, v.v));
@@ -113,7 +120,7 @@ impl<'a> Pipeline<'a> {
 
     /// Emit, and the vertex shader's invocations.
     fn send(&mut self) {
-        let (vertices, triangles) = (self.vertices.len() as u64, self.triangles.len() as u64);
+        let (vertices, triangles) = (self.vertices.len() as u64, self.triangles().len() as u64);
         let (emit, shader) = (&self.config.emit, &self.config.vertex_shader);
         let counters = &mut self.counters;
         if emit.divide {

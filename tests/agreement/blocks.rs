@@ -9,7 +9,8 @@ use rtl_model::evaluate::{Evaluate, Settings};
 use rtl_model::number::{Format, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch};
 use rtl_model::patch::{EDGES, Levels, Patch, Triangle, Vertex, View};
 use rtl_model::place::Placement;
-use rtl_model::{clip, emit, port, stitch};
+use rtl_model::stitch::{Degenerate, Stitch};
+use rtl_model::{clip, emit, port};
 use tessim::config::{BackfaceMethod, Scheme};
 use tessim::golden::{self, Real};
 
@@ -111,12 +112,22 @@ pub(crate) fn stitch(
     placement: &Placement,
     placed: &golden::place::Placed,
 ) -> Vec<Triangle> {
-    let mut triangles = Vec::new();
-    stitch::accept(placement, &mut triangles);
+    let triangles = Stitch::default().accept(placement).to_vec();
     let numbers = triangles.iter().map(|t| t.map(usize::from)).collect();
     let got = golden::stitch::canonical(numbers);
     ledger.equal(Q::StitchTriangles, got, golden::stitch::triangles(placed));
     triangles
+}
+
+pub(crate) fn degenerate(
+    ledger: &mut Ledger,
+    placement: &Placement,
+    vertices: &[Vertex],
+    triangles: &[Triangle],
+) {
+    let got = Degenerate::default().count(placement, vertices, triangles);
+    let want = golden::stitch::degenerate(vertices, triangles);
+    ledger.equal(Q::StitchDegenerate, got, want);
 }
 
 pub(crate) fn evaluate(
@@ -203,7 +214,6 @@ fn distance(got: Real, want: Real, width: u32) -> f64 {
 pub(crate) fn emit(
     ledger: &mut Ledger,
     vertices: &[Vertex],
-    triangles: &[Triangle],
     view: &View,
     settings: emit::Settings,
 ) {
@@ -224,6 +234,4 @@ pub(crate) fn emit(
             ledger.error(Q::EmitPixel, &at, error(got.x, x).max(error(got.y, y)));
         }
     }
-    let want = golden::emit::degenerate(vertices, triangles);
-    ledger.equal(Q::EmitDegenerate, emit::degenerate(vertices, triangles), want);
 }

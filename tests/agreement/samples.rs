@@ -156,7 +156,8 @@ fn pipeline(
     let (placement, placed) = blocks::place(ledger, levels);
     let triangles = blocks::stitch(ledger, &placement, &placed);
     let vertices = blocks::evaluate(ledger, patch, settings, (&placement, &placed));
-    blocks::emit(ledger, &vertices, &triangles, view, emit);
+    blocks::degenerate(ledger, &placement, &vertices, &triangles);
+    blocks::emit(ledger, &vertices, view, emit);
 }
 
 /// Emit on positions that no surface has: w around 0, quotients around the ends of the band.
@@ -172,7 +173,7 @@ fn screen(ledger: &mut Ledger, random: &mut Random) {
     });
     let rounding = random.of(Rounding::ALL);
     let settings = emit::Settings { subpixel_bits: random.integer(0, 12), rounding };
-    blocks::emit(ledger, &vertices, &[[0, 1, 2]], &view, settings);
+    blocks::emit(ledger, &vertices, &view, settings);
 }
 
 /// A patch before a random camera.

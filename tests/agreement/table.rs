@@ -64,7 +64,7 @@ pub(crate) enum Quantity {
     StitchTriangles,
     EmitPixel,
     EmitDivided,
-    EmitDegenerate,
+    StitchDegenerate,
 }
 
 /// A row of the table.
@@ -227,11 +227,11 @@ pub(crate) const TABLE: &[Row] = &[
          bits make of the normal; that all these roundings conspire has not been seen"),
     exact(Q::StitchTriangles, "stitch", "set of triangles", 1_000,
         "decisions"),
+    exact(Q::StitchDegenerate, "stitch", "degenerate triangles", 1_000,
+        "comparisons of integers"),
     within(Q::EmitPixel, "emit", "screen coordinate, sub-pixel ulps", 100_000,
         |at| rounding(at) + 1e-6,
         "one quotient, rounded once; f64 within 2^-26"),
     exact(Q::EmitDivided, "emit", "vertices divided", 100_000,
-        "comparisons of integers"),
-    exact(Q::EmitDegenerate, "emit", "degenerate triangles", 1_000,
         "comparisons of integers"),
 ];
