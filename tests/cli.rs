@@ -1,6 +1,8 @@
 //! The command line as users meet it: what is printed, what is written, what is refused, exit
 //! codes.
 
+#![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
+
 use assert_cmd::Command;
 use predicates::prelude::*;
 use std::fs;

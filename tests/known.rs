@@ -106,9 +106,11 @@ fn mesh_text(rows: u32, columns: u32, resident: bool, instances: u32) -> String 
     let instances = vec![identity; instances as usize].join(",");
     format!(
         "{{\"tessim\":1}}\n\
-         {{\"frame\":{{\"viewport\":[64,64],\"view\":{identity},\"projection\":[0.01,0,0,0,0,0.01,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":{identity},\
+         \"projection\":[0.01,0,0,0,0,0.01,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n\
          {{\"points\":{{\"id\":0,\"xyz\":[{}],\"resident\":{resident}}}}}\n\
-         {{\"draw\":{{\"primitive\":\"mesh\",\"points\":0,\"rows\":{rows},\"columns\":{columns},\"instances\":[{instances}]}}}}\n\
+         {{\"draw\":{{\"primitive\":\"mesh\",\"points\":0,\"rows\":{rows},\
+         \"columns\":{columns},\"instances\":[{instances}]}}}}\n\
          {{\"end\":{{}}}}\n",
         points.join(",")
     )

@@ -68,8 +68,8 @@ fn a_long_trace_runs_in_the_memory_of_a_short_one() {
     run(long, &mut NoMesh);
     let end = peak().expect("as before");
     println!(
-        "compared peaks: start {before}, 10000 patches {short}, with ply {short_mesh}; {patches} patches with ply \
-         {long_mesh}, end {end}"
+        "compared peaks: start {before}, 10000 patches {short}, with ply {short_mesh}; \
+         {patches} patches with ply {long_mesh}, end {end}"
     );
     assert!(end <= BYTES_MAX, "{end} bytes");
     assert!(end as f64 <= 1.1 * short_mesh as f64, "{end} bytes after {short_mesh}");

@@ -4,6 +4,8 @@
 //! Each rule is a function from a file's path and text to what is wrong with it. `planted.rs` shows
 //! each rule a violation, so that a rule that has gone blind fails too.
 
+#![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
+
 #[path = "tidy/arrows.rs"]
 mod arrows;
 #[path = "tidy/lexer.rs"]

@@ -2,10 +2,11 @@
 //! threads, no `unsafe`.
 //!
 //! ```text
-//!  control points          patches                       levels, parameters      points and triangles
-//!   f32 bits ─► port ─► assemble ─► clip ─► backface ─► level ─► place ─► evaluate ─► stitch ─► emit
-//!              Q formats  reuse      AND of   exact sign   edges    half-    forward     Bresenham  divide,
-//!                                    outcodes of 81 coeff. alone    lists    differences  walk      snap
+//! points            patches                     levels, parameters     points, triangles
+//! f32 ─► port ─► assemble ─► clip ─► backface ─► level ─► place ─► evaluate ─► stitch ─► emit
+//!       Q formats  reuse    AND of   exact sign  edges   half-    forward    Bresenham  divide,
+//!                          outcodes  of 81       alone   lists    differences  walk     snap
+//!                                    coefficients
 //! ```
 //!
 //! A file imports only [`number`], [`counter`], [`patch`] and the blocks that stand above it in the

@@ -6,9 +6,9 @@
 //!
 //! ```text
 //!   level 1     o───────────────────────────o   0, 1
-//!   1 < s < 2   o──o─────────────────────o──o   0, 1 - 1/s, 1/s, 1: each half-run's one step passes the centre
+//!   1 < s < 2   o──o─────────────────────o──o   0, 1 - 1/s, 1/s, 1: one step passes the centre
 //!   level 2     o─────────────o─────────────o
-//!   5           o────o────o────┬────o────o────o  0 1/5 2/5 1/2 3/5 4/5 1: 2 ceil(level / 2) segments
+//!   5           o────o────o────┬────o────o────o  0 1/5 2/5 1/2 3/5 4/5 1: 2 ceil(level/2)
 //! ```
 //!
 //! The one division of a level is R = floor(2^48 / level) in U0.32; it serves the parameters,

@@ -51,7 +51,8 @@ mod tests {
         fn an_inside_coordinate_stays_inside(
             w in -100f32..100.0, t in -1f32..=1.0, width in 8u32..=48, range in -2i32..8,
         ) {
-            let [x, .., q] = quantise([w.abs() * t, 0.0, 0.0, w.abs()], Format::of_range(width, range));
+            let format = Format::of_range(width, range);
+            let [x, .., q] = quantise([w.abs() * t, 0.0, 0.0, w.abs()], format);
             prop_assert!(x <= q && -x <= q);
         }
 

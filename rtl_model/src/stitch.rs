@@ -67,8 +67,8 @@ impl Iterator for Walk {
     }
 }
 
-/// The block, which keeps the triangles of its last patch: the next one has the same where its lists have as many
-/// segments, for topology depends on nothing else.
+/// The block, which keeps the triangles of its last patch: the next one has the same where its
+/// lists have as many segments, for topology depends on nothing else.
 #[derive(Clone, Debug, Default)]
 pub struct Stitch {
     segments: [usize; 6],

@@ -28,8 +28,8 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     let name = args.input.display().to_string();
     // What is wrong with the input is no failure of the output: it is kept for afterwards.
     let mut outcome = Ok(());
-    let written = print::to_file_or_stdout(Some(&args.output), |mut out| {
-        outcome = import_bpt(input, &name, &mut out);
+    let written = print::to_file_or_stdout(Some(&args.output), |out| {
+        outcome = import_bpt(input, &name, out);
         if outcome.is_ok() { Ok(()) } else { Err(io::Error::other("the import failed")) }
     });
     outcome.and(written)

@@ -84,7 +84,10 @@ pub(crate) const LINES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "singular projection",
-        r#"{"frame":{"projection":☞[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,9],"viewport":[1,1],"view":ONE}}"#,
+        concat!(
+            r#"{"frame":{"projection":☞[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,9],"#,
+            r#""viewport":[1,1],"view":ONE}}"#
+        ),
         &["frame.projection", "singular"],
     ),
     (

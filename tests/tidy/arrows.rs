@@ -31,10 +31,13 @@ pub(crate) fn module_order(lib: &str) -> Vec<String> {
     modules.map(|pair| pair[1].text.to_owned()).collect()
 }
 
+/// Whether a part, the first, may import another.
+type Allowed<'a> = Box<dyn Fn(&str, &str) -> bool + 'a>;
+
 /// How many imports the file at `path` has, and which of them go against the arrows.
 pub(crate) fn problems(path: &str, text: &str, order: &[String]) -> (usize, Vec<String>) {
     let tokens = lexer::without_tests(&lexer::tokens(text));
-    let (folder, allowed): (_, Box<dyn Fn(&str, &str) -> bool>) =
+    let (folder, allowed): (_, Allowed<'_>) =
         if let Some(inside) = path.strip_prefix("rtl_model/src/") {
             (inside, Box::new(|from, to| hardware_may(order, from, to)))
         } else if let Some(inside) = path.strip_prefix("src/") {

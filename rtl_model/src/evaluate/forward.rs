@@ -10,7 +10,7 @@
 //!   h2 = R R                                                    64 fraction bits, exact
 //!   h3 = (h2 R) >> 32                                           64 fraction bits, truncated
 //!   D1 = a h3 + b h2 + c R    D2 = 6a h3 + 2b h2    D3 = 6a h3  rounded half up to g bits, once
-//!   D0 = B0 << g;  a step: D0 += D1, D1 += D2, D2 += D3;        vertex = D0 rounded to position bits
+//!   D0 = B0 << g;  a step: D0 += D1, D1 += D2, D2 += D3;      vertex = D0 rounded to position bits
 //! ```
 //!
 //! The registers are modular; their true widths are D0 and D1 W + 1, D2 and D3 W + 6, plus g. A run

@@ -248,7 +248,8 @@ pub(super) mod tests {
                         same(lerp::<R>(a, b, t as u32, fraction as u32), (exact, one));
                     }
                 }
-                let single = (a as f32 / 4.0).to_bits(); // a quarter: rounds, and overflows at fraction 8
+                // A quarter: rounds, and overflows at fraction 8.
+                let single = (a as f32 / 4.0).to_bits();
                 let got = from_f32_bits::<R>(single, fraction).expect("not a NaN");
                 same(got, (a * one, 4));
             }
@@ -290,7 +291,10 @@ pub(super) mod tests {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
 
         #[test]
-        fn shifts_and_divisions_agree_at_all_widths(value in -(1_i64 << 61)..1 << 61, n in 0u32..61) {
+        fn shifts_and_divisions_agree_at_all_widths(
+            value in -(1_i64 << 61)..1 << 61,
+            n in 0u32..61,
+        ) {
             same_as_i128::<super::super::Floor>(value, n);
             same_as_i128::<super::super::NearestUp>(value, n);
             same_as_i128::<super::super::NearestEven>(value, n);
@@ -328,7 +332,8 @@ pub(super) mod tests {
             type Q = fixed::types::I16F16;
             let (x, y) = (Q::from_bits(a), Q::from_bits(b));
             let q = Format { width: 32, fraction: 16 };
-            let product = shift_right_wide::<super::super::Floor>(i128::from(a) * i128::from(b), 16) as i64;
+            let exact = i128::from(a) * i128::from(b);
+            let product = shift_right_wide::<super::super::Floor>(exact, 16) as i64;
             prop_assert_eq!(q.fit::<Wrap>(product).0, i64::from(x.wrapping_mul(y).to_bits()));
             // The crate saturates to -2^31 where the symmetric range ends at 1 - 2^31.
             let symmetric = |v: Q| i64::from(v.to_bits()).max(-q.max());

@@ -1,4 +1,5 @@
-//! Degenerate triangles: those with two equal clip positions. They stay in the mesh, and are counted.
+//! Degenerate triangles: those with two equal clip positions. They stay in the mesh, and are
+//! counted.
 
 use super::grid_triangles;
 use crate::patch::{Triangle, Vertex};
@@ -6,16 +7,17 @@ use crate::place::Placement;
 
 /// The counter and its store.
 ///
-/// Three comparisons of positions a triangle would cost as much as making it. So neighbours of the interior grid are
-/// first compared by 32-bit fingerprints, whole rows at a time: where none agree, and mostly none do, no triangle of
-/// the grid is degenerate.
+/// Three comparisons of positions a triangle would cost as much as making it. So neighbours of the
+/// interior grid are first compared by 32-bit fingerprints, whole rows at a time: where none agree,
+/// and mostly none do, no triangle of the grid is degenerate.
 #[derive(Clone, Debug, Default)]
 pub struct Degenerate {
     fingerprints: Vec<u32>,
 }
 
 impl Degenerate {
-    /// How many of a patch's triangles, in the order of [`super::accept`], have two equal positions.
+    /// How many of a patch's triangles, in the order of [`super::accept`], have two equal
+    /// positions.
     pub fn count(
         &mut self,
         placement: &Placement,
@@ -34,7 +36,8 @@ impl Degenerate {
         triangles[sure..].iter().filter(is_degenerate).count() as u64
     }
 
-    /// Whether two neighbours of the interior grid might be equal: along a row, a column or either diagonal.
+    /// Whether two neighbours of the interior grid might be equal: along a row, a column or either
+    /// diagonal.
     fn neighbours_agree(&mut self, placement: &Placement, vertices: &[Vertex]) -> bool {
         let interior = &vertices[placement.boundary()..];
         self.fingerprints.clear();
@@ -45,7 +48,8 @@ impl Degenerate {
         }));
         let all = &self.fingerprints;
         let [columns, _] = placement.interior();
-        // Beyond a row's end this compares with the next row's start: a needless look, never a missed one.
+        // Beyond a row's end this compares with the next row's start: a needless look, never a
+        // missed one.
         [1, columns.saturating_sub(1), columns, columns + 1].iter().any(|&apart| {
             let later = all.get(apart.max(1)..).unwrap_or_default();
             all.iter().zip(later).fold(false, |any, (a, b)| any | (a == b))
