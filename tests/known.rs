@@ -250,3 +250,30 @@ fn shipped_traces_have_their_expected_counters() {
         println!("compared {} rows of {name}", csv.lines().count());
     }
 }
+
+/// A square patch in the plane z = 0 whose Su x Sv points to +z, seen from +z or through something that mirrors.
+fn square(model: &str, projection_x: &str, extra: &str) -> u64 {
+    let points: Vec<String> = (0..16).map(|k| format!("[{},{},0]", k % 4 - 1, k / 4 - 1)).collect();
+    let text = format!(
+        "{{\"tessim\":1}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,-5,1],\"projection\":[{projection_x},0,0,0,0,1,0,0,0,0,-1.01,-1,0,0,-0.1,0]}}}}\n\
+         {{\"points\":{{\"id\":0,\"xyz\":[{}]}}}}\n\
+         {{\"draw\":{{\"primitive\":\"patches\",\"points\":0,\"count\":1,\"model\":{model}{extra}}}}}\n\
+         {{\"end\":{{}}}}\n",
+        points.join(",")
+    );
+    run_text(&text, &Config::default()).expect("a square").total(C::BackfaceCulled)
+}
+
+#[test]
+fn the_front_is_where_the_normal_points_in_world_space() {
+    let (plain, mirror) =
+        ("[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", "[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]");
+    let reversed = ",\"front\":\"reversed\"";
+    assert_eq!(square(plain, "1", ""), 0, "it faces the viewer");
+    assert_eq!(square(mirror, "1", ""), 1, "a mirroring model turns it round");
+    assert_eq!(square(plain, "-1", ""), 0, "a mirroring projection does not");
+    assert_eq!(square(plain, "1", reversed), 1, "the draw may turn it round");
+    assert_eq!(square(mirror, "-1", reversed), 0);
+    assert_eq!(square(mirror, "1", ",\"cull\":false"), 0, "or keep both sides");
+}
