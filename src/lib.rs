@@ -1,4 +1,31 @@
-//! To come.
+//! `tessim` measures a GPU tessellation unit before it exists: commands that draw surfaces come in,
+//! triangles stream into a sink, counters come out.
+//!
+//! ```text
+//! trace ─► unit ─► sink (triangles)         rtl_model: the fixed-point blocks of the units
+//!           │                               golden:    the same blocks in f64, by definition
+//!           └────► report (counters) ─► output
+//! ```
+//!
+//! The whole interface is one function, [`simulate`]:
+//!
+//! ```
+//! use rtl_model::counter::Counter;
+//! use tessim::config::Config;
+//! use tessim::sink::NoMesh;
+//! use tessim::trace::read::Reader;
+//!
+//! let trace = Reader::open("traces/teapot.jsonl")?;
+//! let commands = trace.map(|located| Ok(located?.command));
+//! let report = tessim::simulate(commands, &Config::default(), &mut NoMesh)?;
+//! assert_eq!(report.total(Counter::LinkControlPoints), 32 * 16 * 12);
+//! # Ok::<(), tessim::error::Error>(())
+//! ```
+//!
+//! What a run computes is in [`config::Config`], nowhere else; the number of threads is that of the
+//! current rayon pool and changes nothing. A consumer of triangles implements [`sink::Sink`];
+//! [`output`] holds those that the command line has.
+
 pub mod config;
 pub mod error;
 pub mod golden;
@@ -9,3 +36,5 @@ pub mod shader;
 pub mod sink;
 pub mod trace;
 pub mod unit;
+
+pub use unit::simulate;

@@ -1,14 +1,20 @@
 //! Back-face removal: `tangent_plane` never drops a patch of which the quantised surface has a
 //! front-facing sample, and drops most of those that have none.
 
-mod common;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/random.rs"]
+mod random;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/run.rs"]
+mod run;
 
-use common::{Random, camera, scale};
 use glam::{DVec3, Mat4, Vec3};
+use random::Random;
 use rtl_model::backface::{self, Method, Verdict};
 use rtl_model::number::{Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch};
 use rtl_model::patch::{Patch, View};
 use rtl_model::port;
+use run::{camera, scale};
 use tessim::config::Config;
 use tessim::shader::control_point;
 use tessim::trace::command::{Command, Frame};
@@ -110,12 +116,12 @@ fn see(
 /// A view from outside: 2.5 to 8 radii away from the middle of a model.
 fn view(random: &mut Random, centre: Vec3, radius: f32) -> (Frame, Mat4) {
     let direction = loop {
-        let d = Vec3::from([(); 3].map(|()| random.range(-1.0, 1.0)));
+        let d = Vec3::from([(); 3].map(|()| random.single(-1.0, 1.0)));
         if (0.1..1.0).contains(&d.length()) {
             break d.normalize();
         }
     };
-    let distance = radius * random.range(2.5, 8.0);
+    let distance = radius * random.single(2.5, 8.0);
     let frame = camera(direction * distance, radius, distance + 2.0 * radius);
     (frame, Mat4::from_translation(-centre))
 }
@@ -154,7 +160,7 @@ impl Score {
 #[test]
 fn at_the_default_format_most_back_facing_patches_are_dropped_and_no_other() {
     let config = Config::default();
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let mut pooled = Score::default();
     for name in ["teapot", "teacup", "teaspoon"] {
         let (patches, reversed) = model(name);
@@ -186,25 +192,25 @@ fn at_the_default_format_most_back_facing_patches_are_dropped_and_no_other() {
 
 #[test]
 fn at_any_format_no_patch_with_a_front_facing_sample_is_dropped() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let (mut dropped, mut tested) = (0, 0);
     for _ in 0..scale(4000, 100_000) {
         let mut config = Config::default();
-        config.position.width = 8 + random.below(41) as u32;
-        config.position.rounding = random.pick(&Rounding::ALL);
-        config.position.overflow = random.pick(&Overflow::ALL);
-        let bulge = random.pick(&[0.0, 0.02, 0.3, 1.0]);
+        config.position.width = 8 + random.integer(0, 40);
+        config.position.rounding = random.of(Rounding::ALL);
+        config.position.overflow = random.of(Overflow::ALL);
+        let bulge = random.of([0.0, 0.02, 0.3, 1.0]);
         let patch = std::array::from_fn(|k| {
             let mut p = [(k % 4) as f32 / 3.0, (k / 4) as f32 / 3.0, 0.0, 1.0];
             for c in &mut p[..3] {
-                *c += random.range(-bulge, bulge);
+                *c += random.single(-bulge, bulge);
             }
             p
         });
         let (frame, matrix) = view(&mut random, Vec3::new(0.5, 0.5, 0.0), 1.0);
         let state = FrameState::new(&frame, &config).expect("a finite far plane");
         let matrix = control_point::concatenate(&state.clip_from_world, &matrix);
-        let seen = see(&patch, random.below(2) == 1, &matrix, &state.view, &config);
+        let seen = see(&patch, random.integer(0, 1) == 1, &matrix, &state.view, &config);
         assert!(!(seen.tangent_plane && seen.quantised), "dropped under {config:?}: {patch:?}");
         dropped += u32::from(seen.tangent_plane);
         tested += 1;

@@ -2,7 +2,12 @@
 //! counters, and the expected counters of every shipped trace (`UPDATE_EXPECT=1` rewrites those,
 //! for a person to read the difference).
 
-mod common;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/random.rs"]
+mod random;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/run.rs"]
+mod run;
 
 use rtl_model::counter::Counter as C;
 use rtl_model::counter::Counters;
@@ -196,25 +201,24 @@ fn laws(c: &Counters, config: &Config) {
 
 #[test]
 fn counters_conserve_what_flows_under_every_configuration() {
-    let mut random = common::Random(6);
+    let mut random = random::Random::new(6);
     let mut frames = 0;
-    for _ in 0..common::scale(60, 1000) {
+    for _ in 0..run::scale(60, 1000) {
         let mut config = Config::default();
-        config.position.width = 8 + random.below(41) as u32;
-        config.position.clip_range_log2 = random.pick(&[None, Some(0), Some(4)]);
-        config.backface.method = random.pick(&[
+        config.position.width = 8 + random.integer(0, 40);
+        config.position.clip_range_log2 = random.of([None, Some(0), Some(4)]);
+        config.backface.method = random.of([
             BackfaceMethod::Off,
             BackfaceMethod::NetFacets,
             BackfaceMethod::TangentPlane,
         ]);
-        config.clip.enabled = random.below(3) > 0;
-        config.emit.divide = random.below(3) > 0;
-        config.evaluate.scheme =
-            random.pick(&[Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
-        config.evaluate.normals = random.pick(&[Normals::Off, Normals::TangentPlane]);
-        config.link.payload = random.pick(&[128, 256]);
-        config.memory.burst = random.pick(&[16, 32, 64]);
-        config.level.max_level = random.pick(&[None, Some(4.0)]);
+        config.clip.enabled = random.integer(0, 2) > 0;
+        config.emit.divide = random.integer(0, 2) > 0;
+        config.evaluate.scheme = random.of([Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
+        config.evaluate.normals = random.of([Normals::Off, Normals::TangentPlane]);
+        config.link.payload = random.of([128, 256]);
+        config.memory.burst = random.of([16, 32, 64]);
+        config.level.max_level = random.of([None, Some(4.0)]);
         for name in SHIPPED {
             for counters in &run_text(&shipped(name), &config).expect("a shipped trace").frames {
                 laws(counters, &config);
@@ -245,4 +249,31 @@ fn shipped_traces_have_their_expected_counters() {
         assert_eq!(csv, expected, "{}", path.display());
         println!("compared {} rows of {name}", csv.lines().count());
     }
+}
+
+/// A square patch in the plane z = 0 whose Su x Sv points to +z, seen from +z or through something that mirrors.
+fn square(model: &str, projection_x: &str, extra: &str) -> u64 {
+    let points: Vec<String> = (0..16).map(|k| format!("[{},{},0]", k % 4 - 1, k / 4 - 1)).collect();
+    let text = format!(
+        "{{\"tessim\":1}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,-5,1],\"projection\":[{projection_x},0,0,0,0,1,0,0,0,0,-1.01,-1,0,0,-0.1,0]}}}}\n\
+         {{\"points\":{{\"id\":0,\"xyz\":[{}]}}}}\n\
+         {{\"draw\":{{\"primitive\":\"patches\",\"points\":0,\"count\":1,\"model\":{model}{extra}}}}}\n\
+         {{\"end\":{{}}}}\n",
+        points.join(",")
+    );
+    run_text(&text, &Config::default()).expect("a square").total(C::BackfaceCulled)
+}
+
+#[test]
+fn the_front_is_where_the_normal_points_in_world_space() {
+    let (plain, mirror) =
+        ("[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", "[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]");
+    let reversed = ",\"front\":\"reversed\"";
+    assert_eq!(square(plain, "1", ""), 0, "it faces the viewer");
+    assert_eq!(square(mirror, "1", ""), 1, "a mirroring model turns it round");
+    assert_eq!(square(plain, "-1", ""), 0, "a mirroring projection does not");
+    assert_eq!(square(plain, "1", reversed), 1, "the draw may turn it round");
+    assert_eq!(square(mirror, "-1", reversed), 0);
+    assert_eq!(square(mirror, "1", ",\"cull\":false"), 0, "or keep both sides");
 }

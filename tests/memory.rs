@@ -1,7 +1,9 @@
 //! Memory does not grow with the trace: a grid of many patches runs in the memory of a small one,
 //! with counters and with a mesh. One test, for it looks at the peak of the whole process.
 
-mod common;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/run.rs"]
+mod run;
 
 use rtl_model::counter::Counter;
 use rtl_model::patch::Level;
@@ -52,7 +54,7 @@ fn a_long_trace_runs_in_the_memory_of_a_short_one() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let config = Config::default();
-    let long = common::scale(400, 1000) as u32;
+    let long = run::scale(400, 1000) as u32;
     let run_with_mesh = |side| {
         let mut mesh =
             MeshFile::create(MeshForm::Ply, folder.path(), 0, "grid", &config).expect("a mesh");

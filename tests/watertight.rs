@@ -2,13 +2,19 @@
 //! reversed or transposed, in other draws, primitives and frames, at every width, rounding,
 //! overflow and scheme.
 
-mod common;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/random.rs"]
+mod random;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "support/run.rs"]
+mod run;
 
-use common::{Keep, Mesh, Random, camera, draw, points, scale};
 use glam::Vec3;
+use random::Random;
 use rtl_model::level::Criterion;
 use rtl_model::number::{Overflow, Rounding};
 use rtl_model::patch::{EDGES, Level, ONE, Point};
+use run::{Keep, Mesh, camera, draw, points, scale};
 use tessim::config::{Config, Scheme};
 use tessim::trace::command::{Command, Primitive, Tessellation};
 use tessim::unit::simulate;
@@ -50,15 +56,15 @@ fn same(a: &[(Point, u32)], b: &[(Point, u32)], reversed: bool) -> bool {
 }
 
 fn patch(random: &mut Random, reach: f32) -> Vec<[f32; 3]> {
-    let centre = [(); 3].map(|()| random.range(-1.0, 1.0));
+    let centre = [(); 3].map(|()| random.single(-1.0, 1.0));
     let mut patch = vec![[0.0; 3]; 16];
     for (k, point) in patch.iter_mut().enumerate() {
         let lattice = [(k % 4) as f32 / 3.0 - 0.5, (k / 4) as f32 / 3.0 - 0.5, 0.0];
         for i in 0..3 {
-            point[i] = centre[i] + reach * (lattice[i] + random.range(-0.4, 0.4));
+            point[i] = centre[i] + reach * (lattice[i] + random.single(-0.4, 0.4));
         }
     }
-    if random.below(8) == 0 {
+    if random.integer(0, 7) == 0 {
         let first = patch[0];
         patch[..4].fill(first); // a collapsed edge
     }
@@ -67,12 +73,12 @@ fn patch(random: &mut Random, reach: f32) -> Vec<[f32; 3]> {
 
 /// A pair and how it shares.
 fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
-    let reach = random.pick(&[0.05, 0.5, 2.0, 6.0]);
+    let reach = random.of([0.05, 0.5, 2.0, 6.0]);
     let (a, mut b) = (patch(random, reach), patch(random, reach));
     let shared = Shared {
-        a: random.below(4) as usize,
-        b: random.below(4) as usize,
-        reversed: random.below(2) == 1,
+        a: random.integer(0, 3) as usize,
+        b: random.integer(0, 3) as usize,
+        reversed: random.integer(0, 1) == 1,
     };
     for k in 0..4 {
         let j = if shared.reversed { 3 - k } else { k };
@@ -83,25 +89,24 @@ fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
 
 fn config(random: &mut Random) -> Config {
     let mut config = Config::default();
-    config.position.width = 8 + random.below(41) as u32;
-    config.position.rounding = random.pick(&Rounding::ALL);
-    config.position.overflow = random.pick(&Overflow::ALL);
-    config.evaluate.rounding = random.pick(&Rounding::ALL);
-    config.evaluate.scheme = random.pick(&[Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
-    if random.below(2) == 0 {
-        config.evaluate.guard =
-            Some(1 + random.below(20.min(60 - u64::from(config.position.width))) as u32);
+    config.position.width = 8 + random.integer(0, 40);
+    config.position.rounding = random.of(Rounding::ALL);
+    config.position.overflow = random.of(Overflow::ALL);
+    config.evaluate.rounding = random.of(Rounding::ALL);
+    config.evaluate.scheme = random.of([Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
+    if random.integer(0, 1) == 0 {
+        config.evaluate.guard = Some(1 + random.integer(0, 20.min(60 - config.position.width) - 1));
     }
     // A range that is too small now and then, so that saturation and wrapping are met.
-    config.position.clip_range_log2 = [None, None, None, Some(1)][random.below(4) as usize];
+    config.position.clip_range_log2 = [None, None, None, Some(1)][random.integer(0, 3) as usize];
     config
 }
 
 fn tessellation(random: &mut Random) -> Tessellation {
-    let pixels = random.pick(&[1 << 13, 1 << 16, 40 << 16]);
-    let criterion = match random.below(4) {
+    let pixels = random.of([1 << 13, 1 << 16, 40 << 16]);
+    let criterion = match random.integer(0, 3) {
         0 => Criterion::EdgeLength { pixels: 8 * pixels.min(40 << 16) },
-        1 => Criterion::Fixed { level: Level::clamped(ONE as u64 + random.below(20 << 16)) },
+        1 => Criterion::Fixed { level: Level::clamped(random.integer(ONE, 21 * ONE).into()) },
         _ => Criterion::Flatness { pixels },
     };
     Tessellation { criterion, min_level: ONE, max_level: 64 * ONE }
@@ -136,7 +141,7 @@ fn meshes(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation, config: &Con
 
 #[test]
 fn shared_edges_are_bit_identical() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let (mut edges, mut vertices, mut uneven) = (0, 0, 0);
     for _ in 0..scale(150, 25_000) {
         let (config, tessellation) = (config(&mut random), tessellation(&mut random));
@@ -169,11 +174,11 @@ fn shared_edges_are_bit_identical() {
 /// The comparison sees what it is there to see.
 #[test]
 fn planted_faults_are_caught() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let (mut tried, mut surface_run, mut rounding) = (0, 0, 0);
     for _ in 0..20 {
         let mut right = Config::default();
-        right.position.width = 24 + random.below(20) as u32;
+        right.position.width = 24 + random.integer(0, 19);
         let mut flipped = right.clone();
         flipped.evaluate.rounding = Rounding::Floor;
         let mut surface = right.clone();

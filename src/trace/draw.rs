@@ -2,9 +2,9 @@
 //! before.
 
 use super::command::{Command, Draw, Primitive};
+use super::field::unsupported;
 use super::field::{Object, choice, flag, integer, integer32, matrix};
 use super::json::{Found, Value};
-use super::parse::unsupported;
 use super::state::State;
 
 /// The most patches of one instance.

@@ -1,7 +1,7 @@
 //! Fields: located values in, numbers, choices and matrices out, each refused in words that say
 //! what was expected.
 
-use super::json::{Found, Value};
+use super::json::{Fault, Found, Value, snippet};
 use glam::DMat4;
 
 /// The fields of one object, all of them known and none twice.
@@ -47,7 +47,7 @@ impl<'a> Object<'a> {
     /// A field that must be there.
     pub(crate) fn require(&self, name: &str, what: &str) -> Found<Value<'a>> {
         self.get(name).ok_or_else(|| {
-            let found = super::json::snippet(self.whole.text);
+            let found = snippet(self.whole.text);
             self.whole.refuse(format!("`{name}` is missing, expected {what}; found {found}"))
         })
     }
@@ -67,16 +67,11 @@ impl<'a> Object<'a> {
 }
 
 /// The fault of a name that is not among the known ones.
-pub(crate) fn unknown(
-    kind: &str,
-    key: Value<'_>,
-    text: &str,
-    known: &[&str],
-) -> super::json::Fault {
+pub(crate) fn unknown(kind: &str, key: Value<'_>, text: &str, known: &[&str]) -> Fault {
     let list = known.iter().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
     let near = nearest(text, known);
     let hint = near.map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
-    let found = super::json::snippet(key.text);
+    let found = snippet(key.text);
     key.refuse(format!("found the unknown {kind} {found}{hint}, expected one of {list}"))
 }
 
@@ -181,4 +176,10 @@ pub(crate) fn invertible(value: Value<'_>) -> Found<[f32; 16]> {
         return Err(value.expected("a matrix that has an inverse; this one is singular"));
     }
     Ok(matrix)
+}
+
+/// The fault of a field that a later version may have.
+pub(crate) fn unsupported(key: Value<'_>) -> Fault {
+    let found = snippet(key.text);
+    key.refuse(format!("found {found}, which is not supported by this version of tessim"))
 }

@@ -7,7 +7,7 @@
 use super::command::{Command, Frame, Header, Points, Range, Tessellation};
 use super::draw;
 use super::field::{Object, choice, flag, integer, integer32, invertible, real32, real64, unknown};
-use super::json::{Fault, Found, Value};
+use super::json::{Found, Value};
 use super::points::{DataFile, Layout, PointFile, PointSource};
 use super::state::State;
 use rtl_model::level::Criterion;
@@ -238,10 +238,4 @@ fn pixels_fx16(value: Value<'_>) -> Found<u32> {
 fn level(value: Value<'_>) -> Found<u32> {
     let level = real64(value, "a level from 1 to 128", |n| (1.0..=128.0).contains(&n))?;
     Ok((level * 65536.0).round_ties_even() as u32)
-}
-
-/// The fault of a field that a later version may have.
-pub(crate) fn unsupported(key: Value<'_>) -> Fault {
-    let found = super::json::snippet(key.text);
-    key.refuse(format!("found {found}, which is not supported by this version of tessim"))
 }

@@ -17,9 +17,7 @@ use crate::sink::Sink;
 use crate::trace::command::Command;
 use rtl_model::counter::Block;
 
-pub use batch::Batch;
 pub use frame::FrameState;
-pub use hybrid::Pipeline;
 
 /// Carries out the commands of a trace on the configured unit, in the current rayon pool; any
 /// number of threads gives the same bytes.
@@ -27,6 +25,10 @@ pub use hybrid::Pipeline;
 /// # Errors
 /// The first error of the commands, the sink or the configuration; a frame whose far plane is
 /// infinite needs a range.
+///
+/// # Panics
+/// When commands break what a reader of traces guarantees: a draw before any frame, of an unknown id,
+/// or of more points than there are.
 pub fn simulate(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,

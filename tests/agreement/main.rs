@@ -7,6 +7,7 @@ mod blocks;
 mod ledger;
 mod levels;
 mod planes;
+#[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]
 mod random;
 mod samples;

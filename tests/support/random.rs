@@ -29,6 +29,11 @@ impl Random {
         least + (most - least) * (self.bits() >> 11) as f64 / 2f64.powi(53)
     }
 
+    /// A single of `least..most`.
+    pub(crate) fn single(&mut self, least: f32, most: f32) -> f32 {
+        self.real(least.into(), most.into()) as f32
+    }
+
     /// A real of `least..most`, each octave as likely as the next.
     pub(crate) fn octaves(&mut self, least: f64, most: f64) -> f64 {
         self.real(least.log2(), most.log2()).exp2()

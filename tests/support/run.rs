@@ -1,5 +1,4 @@
-//! What several tests need: a seeded choice of numbers, a sink that keeps meshes, cameras.
-#![allow(dead_code, reason = "each test uses its part")]
+//! Whole runs in tests: how long a campaign is, a sink that keeps meshes, cameras and commands.
 
 use glam::camera::rh::proj::directx;
 use glam::camera::rh::view::look_at_mat4;
@@ -12,34 +11,6 @@ use tessim::trace::points::PointSource;
 /// How many times over a campaign runs: `TESSIM_LONG=1` asks for the long one.
 pub(crate) fn scale(short: usize, long: usize) -> usize {
     if std::env::var_os("TESSIM_LONG").is_some_and(|v| v == "1") { long } else { short }
-}
-
-/// splitmix64: a seeded sequence that no library version changes.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// 0..n.
-    pub(crate) fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    /// low..high.
-    pub(crate) fn range(&mut self, low: f32, high: f32) -> f32 {
-        let unit = (self.bits() >> 40) as f32 / (1u64 << 24) as f32;
-        low + (high - low) * unit
-    }
-
-    pub(crate) fn pick<T: Copy>(&mut self, of: &[T]) -> T {
-        of[self.below(of.len() as u64) as usize]
-    }
 }
 
 /// A patch's mesh, kept.
