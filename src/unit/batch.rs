@@ -36,35 +36,35 @@ const POINT_GRAIN: usize = 512;
 #[derive(Clone, Copy, Debug)]
 struct Pending {
     /// Number within the frame.
-    pub id: u32,
+    pub(super) id: u32,
     /// Its sixteen points, as indices into the batch.
-    pub indices: [u32; 16],
+    pub(super) indices: [u32; 16],
     /// Its draw, as an index into the batch.
-    pub draw: u32,
+    pub(super) draw: u32,
 }
 
 /// What the patches of a draw share.
 #[derive(Clone, Copy, Debug)]
-pub struct DrawState {
+pub(super) struct DrawState {
     /// Number of the draw within the frame.
-    pub number: u32,
+    pub(super) number: u32,
     /// Back-facing patches may be removed.
-    pub cull: bool,
+    pub(super) cull: bool,
     /// The front is where Su x Sv does not point.
-    pub reversed: bool,
+    pub(super) reversed: bool,
     /// Tessellation state.
-    pub state: State,
+    pub(super) state: State,
 }
 
 /// Vertices and triangles that came of one draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub(super) struct Tally {
     /// Number of the draw within the frame.
-    pub draw: u32,
+    pub(super) draw: u32,
     /// Vertices.
-    pub vertices: u64,
+    pub(super) vertices: u64,
     /// Triangles.
-    pub triangles: u64,
+    pub(super) triangles: u64,
 }
 
 /// Points under one matrix.
@@ -78,7 +78,7 @@ struct Span {
 
 /// Patches that wait to be tessellated.
 #[derive(Clone, Debug, Default)]
-pub struct Batch {
+pub(super) struct Batch {
     points: Vec<[f32; 4]>,
     quantised: Vec<Quantised>,
     spans: Vec<Span>,
@@ -89,24 +89,29 @@ pub struct Batch {
 impl Batch {
     /// Whether nothing waits.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.patches.is_empty()
     }
 
     /// Patches that still fit.
     #[must_use]
-    pub fn room(&self) -> usize {
+    pub(super) fn room(&self) -> usize {
         PATCHES_MAX - self.patches.len()
     }
 
     /// Adds a draw; its patches follow.
-    pub fn draw(&mut self, draw: DrawState) {
+    pub(super) fn draw(&mut self, draw: DrawState) {
         self.draws.push(draw);
     }
 
     /// Adds points under a matrix, of which the first `repeated` were received before. Returns the
     /// index of the first.
-    pub fn points(&mut self, clip_from_object: Mat4, points: &[[f32; 4]], repeated: usize) -> u32 {
+    pub(super) fn points(
+        &mut self,
+        clip_from_object: Mat4,
+        points: &[[f32; 4]],
+        repeated: usize,
+    ) -> u32 {
         let first = self.points.len();
         self.points.extend_from_slice(points);
         let points = first..self.points.len();
@@ -115,7 +120,7 @@ impl Batch {
     }
 
     /// Adds a patch of the draw that was added last.
-    pub fn patch(&mut self, id: u32, indices: [u32; 16]) {
+    pub(super) fn patch(&mut self, id: u32, indices: [u32; 16]) {
         let draw = self.draws.len() as u32 - 1;
         self.patches.push(Pending { id, indices, draw });
     }
@@ -124,7 +129,7 @@ impl Batch {
     ///
     /// # Errors
     /// The sink's.
-    pub fn flush(
+    pub(super) fn flush(
         &mut self,
         config: &Config,
         frame: &FrameState,

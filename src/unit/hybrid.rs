@@ -18,25 +18,25 @@ use rtl_model::{backface, clip, emit, evaluate, level};
 
 /// The blocks of one pipeline and what they made of the patch before.
 #[derive(Clone, Debug)]
-pub struct Pipeline<'a> {
+pub(super) struct Pipeline<'a> {
     config: &'a Config,
     view: View,
     placement: Placement,
     evaluate: Evaluate,
     /// Vertices of the last patch.
-    pub vertices: Vec<Vertex>,
+    pub(super) vertices: Vec<Vertex>,
     /// Their screen positions, where the divide is on.
-    pub screen: Vec<Screen>,
+    pub(super) screen: Vec<Screen>,
     stitch: Stitch,
     degenerate: Degenerate,
     /// What all patches cost.
-    pub counters: Counters,
+    pub(super) counters: Counters,
 }
 
 impl<'a> Pipeline<'a> {
     /// A pipeline for a frame.
     #[must_use]
-    pub fn new(config: &'a Config, view: View) -> Self {
+    pub(super) fn new(config: &'a Config, view: View) -> Self {
         Self {
             config,
             view,
@@ -52,12 +52,12 @@ impl<'a> Pipeline<'a> {
 
     /// Triangles of the last patch.
     #[must_use]
-    pub fn triangles(&self) -> &[Triangle] {
+    pub(super) fn triangles(&self) -> &[Triangle] {
         self.stitch.triangles()
     }
 
     /// Takes a patch through all blocks. Returns whether anything is left of it.
-    pub fn accept(&mut self, patch: &Patch, state: &level::State) -> bool {
+    pub(super) fn accept(&mut self, patch: &Patch, state: &level::State) -> bool {
         self.screen.clear();
         self.keeps(patch) && {
             self.place(patch, state);
