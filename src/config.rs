@@ -2,7 +2,7 @@
 //! data. A leaf.
 //!
 //! In come a preset, a TOML file and single settings ([`layers`]); out comes a checked [`Config`],
-//! which prints itself as commented TOML that reads back as the same configuration ([`print`]).
+//! which prints itself as commented TOML that reads back as the same configuration ([`mod@print`]).
 //! Threads are no part of it: any number of them gives the same bytes.
 
 pub mod check;

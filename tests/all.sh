@@ -81,12 +81,12 @@ fuzz() {
 
 step "format" cargo fmt --all --check
 step "lints" cargo clippy --workspace --all-targets --quiet -- -D warnings
-# Optimised: the comparisons with the definitions run millions of cases. Integer overflow stays checked.
+# Optimised: the comparisons with the definitions run millions of cases. Integer overflow stays
+# checked, in all that follows: one profile builds the dependencies once.
 export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
 # --nocapture, or the reasons of skipped tests would not be seen.
 step "tests" cargo test --workspace --release --no-fail-fast --lib --bins --tests -- --nocapture
 step "documentation tests" cargo test --workspace --release --doc
-unset CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS
 step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
 step "a run" smoke
 step "benches build" cargo bench --workspace --no-run

@@ -251,14 +251,17 @@ fn shipped_traces_have_their_expected_counters() {
     }
 }
 
-/// A square patch in the plane z = 0 whose Su x Sv points to +z, seen from +z or through something that mirrors.
+/// A square patch in the plane z = 0 whose Su x Sv points to +z, seen from +z or through something
+/// that mirrors.
 fn square(model: &str, projection_x: &str, extra: &str) -> u64 {
     let points: Vec<String> = (0..16).map(|k| format!("[{},{},0]", k % 4 - 1, k / 4 - 1)).collect();
     let text = format!(
         "{{\"tessim\":1}}\n\
-         {{\"frame\":{{\"viewport\":[64,64],\"view\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,-5,1],\"projection\":[{projection_x},0,0,0,0,1,0,0,0,0,-1.01,-1,0,0,-0.1,0]}}}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,-5,1],\
+         \"projection\":[{projection_x},0,0,0,0,1,0,0,0,0,-1.01,-1,0,0,-0.1,0]}}}}\n\
          {{\"points\":{{\"id\":0,\"xyz\":[{}]}}}}\n\
-         {{\"draw\":{{\"primitive\":\"patches\",\"points\":0,\"count\":1,\"model\":{model}{extra}}}}}\n\
+         {{\"draw\":{{\"primitive\":\"patches\",\"points\":0,\"count\":1,\
+         \"model\":{model}{extra}}}}}\n\
          {{\"end\":{{}}}}\n",
         points.join(",")
     );

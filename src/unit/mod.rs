@@ -27,8 +27,8 @@ pub use frame::FrameState;
 /// infinite needs a range.
 ///
 /// # Panics
-/// When commands break what a reader of traces guarantees: a draw before any frame, of an unknown id,
-/// or of more points than there are.
+/// When commands break what a reader of traces guarantees: a draw before any frame, of an unknown
+/// id, or of more points than there are.
 pub fn simulate(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,

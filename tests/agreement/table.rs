@@ -62,9 +62,9 @@ pub(crate) enum Quantity {
     Centres,
     Plane,
     StitchTriangles,
+    StitchDegenerate,
     EmitPixel,
     EmitDivided,
-    StitchDegenerate,
 }
 
 /// A row of the table.
