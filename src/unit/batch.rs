@@ -20,8 +20,8 @@ use rtl_model::patch::{Patch, Triangle, Vertex};
 use rtl_model::port::{self, Quantised};
 use std::ops::Range;
 
-/// Patches of a full batch.
-pub(super) const PATCHES_MAX: usize = 1024;
+/// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait for each other.
+pub(super) const PATCHES_MAX: usize = 4096;
 
 /// Patches whose meshes are held at once: 64 of level 128 take 70 MB.
 const WAVE: usize = 64;
@@ -29,8 +29,11 @@ const WAVE: usize = 64;
 /// Patches that a thread takes at a time.
 const GRAIN: usize = 16;
 
-/// Points that a thread takes at a time.
+/// Points in a piece of work, at most: a span may have all points of a large draw.
 const POINT_GRAIN: usize = 512;
+
+/// Pieces of points that a thread takes at a time, at least: a span may have a line of a mesh only.
+const WORK_GRAIN: usize = 4;
 
 /// A patch whose points stand in the batch.
 #[derive(Clone, Copy, Debug)]
@@ -80,6 +83,8 @@ struct Span {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Batch {
     points: Vec<[f32; 4]>,
+    /// Points after the control-point shader: more than `points` where instances share them.
+    shaded: usize,
     quantised: Vec<Quantised>,
     spans: Vec<Span>,
     patches: Vec<Pending>,
@@ -114,9 +119,29 @@ impl Batch {
     ) -> u32 {
         let first = self.points.len();
         self.points.extend_from_slice(points);
-        let points = first..self.points.len();
-        self.spans.push(Span { clip_from_object, points, repeated });
+        self.span(Span { clip_from_object, points: first..self.points.len(), repeated })
+    }
+
+    /// Adds the points of earlier spans again, under another matrix. Returns the index of the first.
+    pub(super) fn again(&mut self, clip_from_object: Mat4, spans: Range<usize>) -> u32 {
+        let first = self.shaded as u32;
+        for k in spans {
+            let span = Span { clip_from_object, ..self.spans[k].clone() };
+            self.span(span);
+        }
+        first
+    }
+
+    fn span(&mut self, span: Span) -> u32 {
+        let first = self.shaded;
+        self.shaded += span.points.len();
+        self.spans.push(span);
         first as u32
+    }
+
+    /// Spans so far.
+    pub(super) fn spans(&self) -> usize {
+        self.spans.len()
     }
 
     /// Adds a patch of the draw that was added last.
@@ -143,6 +168,7 @@ impl Batch {
             Some(sink) => work.stream(sink, counters)?,
         };
         self.points.clear();
+        self.shaded = 0;
         self.spans.clear();
         self.patches.clear();
         self.draws.clear();
@@ -152,50 +178,52 @@ impl Batch {
     /// Control-point shader and port, on all threads.
     fn quantise(&mut self, config: &Config, frame: &FrameState, counters: &mut Counters) {
         let blank = Quantised { point: [0; 4], overflows: 0 };
-        self.quantised.resize(self.points.len(), blank);
+        self.quantised.resize(self.shaded, blank);
         let mut rest = &mut self.quantised[..];
-        let mut pieces = Vec::new();
+        let mut works = Vec::with_capacity(self.spans.len());
         for span in &self.spans {
             let (out, after) = rest.split_at_mut(span.points.len());
             rest = after;
-            let points = self.points[span.points.clone()].chunks(POINT_GRAIN);
-            let format = frame.view.position;
-            let matrix = &span.clip_from_object;
-            pieces.extend(points.zip(out.chunks_mut(POINT_GRAIN)).map(|(points, out)| PortWork {
-                matrix,
-                points,
-                format,
-                out,
-            }));
+            let pieces = self.points[span.points.clone()].chunks(POINT_GRAIN);
+            for (k, (points, out)) in pieces.zip(out.chunks_mut(POINT_GRAIN)).enumerate() {
+                let repeated = span.repeated.saturating_sub(k * POINT_GRAIN).min(out.len());
+                let matrix = &span.clip_from_object;
+                works.push(PortWork { matrix, points, repeated, format: frame.view.position, out });
+            }
         }
         let (rounding, overflow) = (config.position.rounding, config.position.overflow);
-        pieces.into_par_iter().for_each(|work| dispatch(rounding, overflow, work));
-        for span in &self.spans {
-            let received = &self.quantised[span.points.start + span.repeated..span.points.end];
-            let overflows = received.iter().map(|q| u64::from(q.overflows)).sum();
-            let saturated = received.iter().filter(|q| q.overflows > 0).count() as u64;
-            counters.add(Counter::PortPoints, received.len() as u64);
-            counters.add(Counter::PortOverflows, overflows);
-            counters.add(Counter::PortSaturated, saturated);
-        }
+        let port = |work| dispatch(rounding, overflow, work);
+        let counts = works.into_par_iter().with_min_len(WORK_GRAIN).map(port);
+        let [points, overflows, saturated] =
+            counts.reduce(|| [0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
+        counters.add(Counter::PortPoints, points);
+        counters.add(Counter::PortOverflows, overflows);
+        counters.add(Counter::PortSaturated, saturated);
     }
 }
 
 struct PortWork<'a> {
     matrix: &'a Mat4,
     points: &'a [[f32; 4]],
+    /// How many of the first points were received, and counted, before.
+    repeated: usize,
     format: Format,
     out: &'a mut [Quantised],
 }
 
 impl Modal for PortWork<'_> {
-    type Output = ();
+    /// Points received, coordinates that did not fit, points with such a coordinate.
+    type Output = [u64; 3];
 
-    fn run<R: RoundingMode, O: OverflowMode>(self) {
+    fn run<R: RoundingMode, O: OverflowMode>(self) -> [u64; 3] {
         for (out, &point) in self.out.iter_mut().zip(self.points) {
             let clip = control_point::transform(self.matrix, point);
             *out = port::accept::<R, O>(clip.map(f32::to_bits), self.format);
         }
+        let received = &self.out[self.repeated..];
+        let overflows = received.iter().map(|q| u64::from(q.overflows)).sum();
+        let saturated = received.iter().filter(|q| q.overflows > 0).count();
+        [received.len() as u64, overflows, saturated as u64]
     }
 }
 

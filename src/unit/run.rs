@@ -15,6 +15,7 @@ use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
 use rtl_model::patch::Level;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// Bytes that the control-point shader writes: a vec4.
 const SHADED_POINT: u64 = 16;
@@ -160,28 +161,39 @@ impl<'a> Run<'a> {
             reversed: draw.reversed,
             state: hybrid::state(&self.state, self.config),
         };
+        // The spans of the instance before, while the batch holds all of it.
+        let mut whole: Option<Range<usize>> = None;
         for model in &draw.models {
             link::read_resident(&points, received, self.config, &mut self.counters);
             let model = Mat4::from_cols_array(model);
             let matrix = control_point::concatenate(&frame.clip_from_world, &model);
-            self.instance(draw, &points, matrix, state)?;
+            match whole.clone() {
+                Some(spans) if self.batch.room() as u64 >= draw.primitive.patches() => {
+                    self.batch.draw(state);
+                    let base = self.batch.again(matrix, spans);
+                    self.patches(draw.primitive, base);
+                }
+                _ => whole = self.instance(draw, &points, matrix, state)?,
+            }
         }
         Ok(())
     }
 
-    /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row.
+    /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row. Returns its spans, if one
+    /// block took it all.
     fn instance(
         &mut self,
         draw: &Draw,
         points: &Points,
         matrix: Mat4,
         state: DrawState,
-    ) -> Result<()> {
+    ) -> Result<Option<Range<usize>>> {
         let (rows, columns) = match draw.primitive {
             Primitive::Patches { count } => (1, count),
             Primitive::Mesh { rows, columns } => (u64::from(rows), u64::from(columns)),
         };
         let (mut row, mut column) = (0, 0);
+        let mut whole = None;
         while row < rows {
             if self.batch.room() == 0 {
                 self.flush()?;
@@ -192,14 +204,17 @@ impl<'a> Run<'a> {
             } else {
                 Block { row, column, rows: (room / columns).min(rows - row), columns }
             };
+            let first = self.batch.spans();
             self.batch.draw(state);
             self.block(draw, points, matrix, block)?;
+            whole =
+                (block.rows * block.columns == rows * columns).then(|| first..self.batch.spans());
             column += block.columns;
             if column == columns {
                 (row, column) = (row + block.rows, 0);
             }
         }
-        Ok(())
+        Ok(whole)
     }
 
     fn block(&mut self, draw: &Draw, points: &Points, matrix: Mat4, block: Block) -> Result<()> {
