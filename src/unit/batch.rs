@@ -20,7 +20,8 @@ use rtl_model::patch::{Patch, Triangle, Vertex};
 use rtl_model::port::{self, Quantised};
 use std::ops::Range;
 
-/// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait for each other.
+/// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait for each
+/// other.
 pub(super) const PATCHES_MAX: usize = 4096;
 
 /// Patches whose meshes are held at once: 64 of level 128 take 70 MB.
@@ -122,7 +123,8 @@ impl Batch {
         self.span(Span { clip_from_object, points: first..self.points.len(), repeated })
     }
 
-    /// Adds the points of earlier spans again, under another matrix. Returns the index of the first.
+    /// Adds the points of earlier spans again, under another matrix. Returns the index of the
+    /// first.
     pub(super) fn again(&mut self, clip_from_object: Mat4, spans: Range<usize>) -> u32 {
         let first = self.shaded as u32;
         for k in spans {

@@ -179,8 +179,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row. Returns its spans, if one
-    /// block took it all.
+    /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row. Returns
+    /// its spans, if one block took it all.
     fn instance(
         &mut self,
         draw: &Draw,
