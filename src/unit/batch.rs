@@ -20,8 +20,7 @@ use rtl_model::patch::{Patch, Triangle, Vertex};
 use rtl_model::port::{self, Quantised};
 use std::ops::Range;
 
-/// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait for each
-/// other.
+/// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait.
 pub(super) const PATCHES_MAX: usize = 4096;
 
 /// Patches whose meshes are held at once: 64 of level 128 take 70 MB.
