@@ -107,7 +107,7 @@ fn mesh_text(rows: u32, columns: u32, resident: bool, instances: u32) -> String 
     format!(
         "{{\"tessim\":1}}\n\
          {{\"frame\":{{\"viewport\":[64,64],\"view\":{identity},\
-         \"projection\":[0.01,0,0,0,0,0.01,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n\
+         \"projection\":[0.0003,0,0,0,0,0.0003,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n\
          {{\"points\":{{\"id\":0,\"xyz\":[{}],\"resident\":{resident}}}}}\n\
          {{\"draw\":{{\"primitive\":\"mesh\",\"points\":0,\"rows\":{rows},\
          \"columns\":{columns},\"instances\":[{instances}]}}}}\n\
@@ -279,4 +279,30 @@ fn the_front_is_where_the_normal_points_in_world_space() {
     assert_eq!(square(plain, "1", reversed), 1, "the draw may turn it round");
     assert_eq!(square(mirror, "-1", reversed), 0);
     assert_eq!(square(mirror, "1", ",\"cull\":false"), 0, "or keep both sides");
+}
+
+/// The square as seen by `square`, under a configuration.
+fn seen(set: impl Fn(&mut Config)) -> Counters {
+    let mut config = Config::default();
+    set(&mut config);
+    let text = mesh_text(1, 1, false, 1);
+    run_text(&text, &config).expect("a square").totals()
+}
+
+#[test]
+fn what_does_not_fit_is_counted_where_it_does_not() {
+    let fits = seen(|_| {});
+    for counter in [C::PortSaturated, C::PortOverflows, C::LevelClamped, C::LevelNear] {
+        assert_eq!(fits.get(counter), 0, "{counter:?} where all fits");
+    }
+    assert_eq!(fits.get(C::BackfaceTested), 1, "a parallel projection saturates nothing");
+    // w = 1 fits a range of 1 in none of the 16 points; x, y and z do.
+    let narrow = seen(|c| c.position.clip_range_log2 = Some(0));
+    assert_eq!((narrow.get(C::PortSaturated), narrow.get(C::PortOverflows)), (16, 16));
+    assert_eq!(narrow.get(C::BackfaceTested), 0, "a patch with a saturated point is kept");
+    let clamped = seen(|c| (c.level.level, c.level.max_level) = (Some(8.0), Some(4.0)));
+    assert_eq!((clamped.get(C::LevelClamped), clamped.get(C::StitchTriangles)), (6, 32));
+    // All points have w = 1: nearer than 2 is every edge, and then the level is the greatest.
+    let near = seen(|c| (c.level.near, c.level.max_level) = (Some(2.0), Some(4.0)));
+    assert_eq!((near.get(C::LevelNear), near.get(C::StitchTriangles)), (4, 32));
 }

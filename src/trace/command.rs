@@ -117,3 +117,20 @@ pub struct Draw {
     /// Back-facing patches may be removed (default true).
     pub cull: bool,
 }
+
+impl Draw {
+    /// A draw of the points under an id, from the first on, with everything else as a trace leaves
+    /// it: no model, the front where the normal points, back-facing patches removed.
+    #[must_use]
+    pub fn new(primitive: Primitive, points: u32) -> Self {
+        Self {
+            primitive,
+            points,
+            first: 0,
+            models: vec![IDENTITY],
+            models_sent: false,
+            reversed: false,
+            cull: true,
+        }
+    }
+}

@@ -6,7 +6,7 @@
 //! box from the front, a bit from the right and above, with z up, from where all of the model is
 //! seen.
 
-use super::command::{Command, Draw, Header, IDENTITY, Points, Primitive, Tessellation};
+use super::command::{Command, Draw, Header, Points, Primitive, Tessellation};
 use super::json::snippet;
 use super::lines::{LINE_BYTES_MAX, Line, Lines};
 use super::points::PointSource;
@@ -47,15 +47,10 @@ fn write(points: &[[f32; 3]], title: String, output: impl Write) -> std::io::Res
     for chunk in points.chunks(16 * PATCHES_A_DRAW) {
         let source = Arc::new(PointSource::Xyz(chunk.to_vec()));
         writer.write(&Command::Points(Points { id: 0, source, resident: false }))?;
-        writer.write(&Command::Draw(Draw {
-            primitive: Primitive::Patches { count: (chunk.len() / 16) as u64 },
-            points: 0,
-            first: 0,
-            models: vec![IDENTITY],
-            models_sent: false,
-            reversed: false,
-            cull: true,
-        }))?;
+        writer.write(&Command::Draw(Draw::new(
+            Primitive::Patches { count: (chunk.len() / 16) as u64 },
+            0,
+        )))?;
     }
     writer.write(&Command::End)
 }

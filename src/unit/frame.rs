@@ -91,10 +91,12 @@ impl Depths {
         depths
     }
 
-    /// log2 of the smallest power of two that is at least max(1, largest w).
+    /// log2 of the smallest power of two that is at least 1 and above the largest w. Above, not
+    /// equal: a format of range 2^k ends one ulp below it, so w = 1 of a parallel projection would
+    /// saturate in a range of 1, and mark every patch.
     fn range_log2(&self) -> Option<i32> {
-        let w = self.farthest?.max(1.0) * (1.0 - TOLERANCE);
-        Some(w.log2().ceil().max(0.0) as i32)
+        let w = self.farthest? * (1.0 + TOLERANCE);
+        Some(if w < 1.0 { 0 } else { w.log2().floor() as i32 + 1 })
     }
 }
 
@@ -176,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_range_is_the_far_plane_and_the_threshold_the_near_plane() {
-        for (far, log2) in [(0.5, 0), (16.0, 4), (16.1, 5), (100.0, 7)] {
+        for (far, log2) in [(0.5, 0), (15.9, 4), (16.0, 5), (16.1, 5), (100.0, 7)] {
             let projection = directx::perspective(1.0, 1.0, 0.25, far);
             let view = state(projection, Mat4::IDENTITY, Depth::ZeroToOne).view;
             assert_eq!(view.position.fraction, 31 - log2, "far {far}");

@@ -5,7 +5,7 @@ use glam::camera::rh::view::look_at_mat4;
 use rtl_model::patch::{Triangle, Vertex};
 use tessim::error::Result;
 use tessim::sink::{FrameInfo, PatchMesh, Sink};
-use tessim::trace::command::{Command, Draw, Frame, IDENTITY, Points, Primitive};
+use tessim::trace::command::{Command, Draw, Frame, Points, Primitive};
 use tessim::trace::points::PointSource;
 
 /// How many times over a campaign runs: `TESSIM_LONG=1` asks for the long one.
@@ -69,13 +69,5 @@ pub(crate) fn points(id: u32, points: Vec<[f32; 3]>) -> Command {
 
 /// A draw that culls nothing.
 pub(crate) fn draw(primitive: Primitive, points: u32, first: u64) -> Draw {
-    Draw {
-        primitive,
-        points,
-        first,
-        models: vec![IDENTITY],
-        models_sent: false,
-        reversed: false,
-        cull: false,
-    }
+    Draw { first, cull: false, ..Draw::new(primitive, points) }
 }

@@ -7,7 +7,7 @@
 //! All meshes use the one id 0, replaced each time, and nothing is kept: the size of the grid does
 //! not matter to memory, here or in a reader.
 
-use super::super::command::{Command, Draw, Header, IDENTITY, Points, Primitive, Tessellation};
+use super::super::command::{Command, Draw, Header, Points, Primitive, Tessellation};
 use super::super::points::PointSource;
 use super::super::write::Writer;
 use super::camera::Camera;
@@ -74,15 +74,7 @@ impl Grid {
 
 /// A draw of the mesh that is under id 0.
 pub(super) fn draw(rows: u32, columns: u32) -> Draw {
-    Draw {
-        primitive: Primitive::Mesh { rows, columns },
-        points: 0,
-        first: 0,
-        models: vec![IDENTITY],
-        models_sent: false,
-        reversed: false,
-        cull: true,
-    }
+    Draw::new(Primitive::Mesh { rows, columns }, 0)
 }
 
 /// The control points of the `size` patches from patch `first` on (rows, columns), row-major.

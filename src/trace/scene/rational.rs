@@ -6,7 +6,7 @@
 //! quarters follow by turning, which is exact, and each coordinate is rounded once, so neighbours
 //! agree on their edge to the bit. The sphere's patches have one side collapsed, at a pole.
 
-use super::super::command::{Command, Draw, Header, IDENTITY, Points, Primitive, Tessellation};
+use super::super::command::{Command, Draw, Header, Points, Primitive, Tessellation};
 use super::super::points::PointSource;
 use super::super::write::Writer;
 use super::camera::Camera;
@@ -48,15 +48,7 @@ impl Rational {
         let count = points.len() as u64 / 16;
         let source = Arc::new(PointSource::Xyzw(points));
         writer.write(&Command::Points(Points { id: 0, source, resident: false }))?;
-        writer.write(&Command::Draw(Draw {
-            primitive: Primitive::Patches { count },
-            points: 0,
-            first: 0,
-            models: vec![IDENTITY],
-            models_sent: false,
-            reversed: false,
-            cull: true,
-        }))?;
+        writer.write(&Command::Draw(Draw::new(Primitive::Patches { count }, 0)))?;
         writer.write(&Command::End)
     }
 }
