@@ -9,10 +9,12 @@
 //!                                    coefficients
 //! ```
 //!
-//! A file imports only [`number`], [`counter`], [`patch`] and the blocks that stand above it in the
+//! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand above it in the
 //! list below, which is the order of the data.
 
 pub mod number;
+
+pub mod time;
 
 pub mod counter;
 pub mod patch;

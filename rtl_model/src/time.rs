@@ -1,0 +1,143 @@
+//! Time: what a block tells of itself, and the engines that lay cycles over it.
+//!
+//! A block turns a token into tokens and says what that costs in cycles; it never sees the clock.
+//! Blocks stand in a chain, a FIFO before each but the first, which the host feeds.
+//!
+//! ```text
+//!   host ─► block ─► FIFO ─► block ─► FIFO ─► block ─► out
+//!           accept(m)  push  ready    room
+//! ```
+//!
+//! The rules, for token m of a block and its outputs j (all times in cycles, from 0):
+//!
+//! ```text
+//!   accept(m) = max( push(m) + 1,                 it has arrived: a push is seen a cycle later
+//!                    accept(m-1) + 1,             one token a cycle leaves the FIFO
+//!                    lane's last accept + its interval,
+//!                    left(lane's token K back) + 1 )            a slot in flight is free
+//!   emit(m,j) = max( accept(m) + offset(j),
+//!                    previous emission + 1,       one output a cycle leaves the block
+//!                    left(m-1),                   in the order of tokens
+//!                    accept(token d back, downstream) + 1 )     credit: a pop is seen a cycle later
+//!   left(m)   = last emission of m; max( accept(m) + latency, left(m-1) ) if it emits nothing
+//! ```
+//!
+//! Two engines follow these rules and share nothing but this file's declarations: `timed` visits
+//! each token once and computes the maxima, `stepped` goes cycle by cycle. They agree on the time
+//! of every token and on every counter.
+//!
+//! Attribution, for each lane and each cycle from 0 to the elapsed time:
+//!
+//! - in flight: from a token's acceptance until it has left, the cycle of leaving included, and
+//!   until its initiation interval is over;
+//! - blocked: the lane's oldest token, at the cycle's start, has an output that is ready and does
+//!   not leave in the cycle. It is blocked by downstream while all that is missing is room, by
+//!   order while tokens of other lanes go first;
+//! - busy: in flight and not blocked; starved: not in flight.
+//!
+//! Elapsed is the time at which the last token left; the cycle of that number is not counted, so
+//! that n tokens of interval i and latency l take (n - 1) i + l cycles.
+
+use serde::{Deserialize, Serialize};
+
+/// One hardware block: what it makes of a token. It never sees the clock.
+pub trait Block {
+    /// What flows.
+    type Token: Copy;
+
+    /// Takes a token and emits what it makes of it, in order, each with its cycle counted from
+    /// acceptance.
+    fn accept(&mut self, token: Self::Token, out: &mut impl Emit<Self::Token>) -> Cost;
+
+    /// Whether the token needs the memory port that stages share, and for how many cycles it then
+    /// holds it. Asked before acceptance, and only of stages that share the port.
+    fn port(&self, token: &Self::Token) -> Option<u32> {
+        let _ = token;
+        None
+    }
+}
+
+/// Takes the outputs of a token.
+pub trait Emit<T> {
+    /// Emits `token` no earlier than `offset` cycles after acceptance.
+    fn emit(&mut self, token: T, offset: u32);
+}
+
+/// What a token cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// Cycles until the lane can accept its next token, at least 1.
+    pub interval: u32,
+    /// Cycles until the token is done, where it emits nothing.
+    pub latency: u32,
+}
+
+/// How a block stands in the chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Entries of the FIFO before it, at least 1; unused for the first block.
+    pub depth: u32,
+    /// Tokens that a lane holds at once, at least 1.
+    pub in_flight: u32,
+    /// Lanes, at least 1.
+    pub lanes: u32,
+    /// Which lane takes the next token.
+    pub order: LaneOrder,
+    /// Whether its tokens take turns at the memory port that stages share.
+    pub shares_port: bool,
+}
+
+/// Which lane takes the next token. Both are functions of the order of tokens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LaneOrder {
+    /// The first by number of those that are free; if none is, the one that is free first.
+    #[default]
+    FirstFree,
+    /// Token m goes to lane m modulo lanes.
+    RoundRobin,
+}
+
+/// What becomes of the pipeline between frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Frames {
+    /// A frame starts when the one before has left: at time 0 again.
+    #[default]
+    Drain,
+    /// A frame's tokens follow those of the frame before. A lane's share of a frame ends when the
+    /// frame's last token is through it.
+    Overlap,
+}
+
+/// What the time of one block was in one frame: lane-cycles, lanes summed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StageTimes {
+    /// Something in flight, nothing blocked.
+    pub busy: u64,
+    /// Nothing in flight: nothing had arrived.
+    pub starved: u64,
+    /// Nothing in flight: a token had arrived, and waited for the shared memory port.
+    pub starved_by_port: u64,
+    /// A finished output had no room downstream.
+    pub blocked: u64,
+    /// A finished output waited for tokens of other lanes.
+    pub blocked_by_order: u64,
+    /// All of these: elapsed cycles x lanes.
+    pub total: u64,
+    /// Tokens accepted.
+    pub tokens_in: u64,
+    /// Tokens emitted.
+    pub tokens_out: u64,
+    /// Most entries of the FIFO before it; 0 for the first block.
+    pub fifo_peak: u64,
+}
+
+/// What the times of one frame were.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FrameTimes {
+    /// Cycles that the frame added to the run.
+    pub elapsed: u64,
+    /// The blocks of the chain, in its order.
+    pub stages: Vec<StageTimes>,
+}
