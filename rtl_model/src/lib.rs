@@ -9,8 +9,8 @@
 //!                                    coefficients
 //! ```
 //!
-//! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand above it in the
-//! list below, which is the order of the data.
+//! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand
+//! above it in the list below, which is the order of the data.
 
 pub mod number;
 
