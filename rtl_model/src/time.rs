@@ -22,9 +22,12 @@
 //!   left(m)   = last emission of m; max( accept(m) + latency, left(m-1) ) if it emits nothing
 //! ```
 //!
-//! Two engines follow these rules and share nothing but this file's declarations: `timed` visits
-//! each token once and computes the maxima, `stepped` goes cycle by cycle. They agree on the time
-//! of every token and on every counter.
+//! Two engines follow these rules and share nothing but this file's declarations: [`timed`] visits
+//! each token once and computes the maxima, [`stepped`] goes cycle by cycle. They agree on the time
+//! of every token and on every counter. Where stages of one chain share a memory port, who gets it
+//! depends on the order of time across stages, which a token's own visit does not know: then
+//! [`ordered`] computes the same maxima, event by event. Two stages that ask in the same cycle: the
+//! one nearer to the output goes first, for that drains the chain.
 //!
 //! Attribution, for each lane and each cycle from 0 to the elapsed time:
 //!
@@ -37,6 +40,11 @@
 //!
 //! Elapsed is the time at which the last token left; the cycle of that number is not counted, so
 //! that n tokens of interval i and latency l take (n - 1) i + l cycles.
+
+mod account;
+pub mod ordered;
+pub mod stepped;
+pub mod timed;
 
 use serde::{Deserialize, Serialize};
 
@@ -87,6 +95,15 @@ pub struct Shape {
     pub shares_port: bool,
 }
 
+impl Shape {
+    /// # Panics
+    /// When something of it is zero.
+    fn check(&self) {
+        let Self { depth, in_flight, lanes, .. } = *self;
+        assert!(depth > 0 && in_flight > 0 && lanes > 0, "a shape has no zeros: {self:?}");
+    }
+}
+
 /// Which lane takes the next token. Both are functions of the order of tokens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -133,6 +150,27 @@ pub struct StageTimes {
     pub fifo_peak: u64,
 }
 
+/// Is told the time of every token. Times are those of the frame where frames drain.
+pub trait Probe {
+    /// The next token of a block was accepted.
+    fn accepted(&mut self, stage: usize, lane: usize, at: u64) {
+        let _ = (stage, lane, at);
+    }
+
+    /// The next output of a block left.
+    fn emitted(&mut self, stage: usize, at: u64) {
+        let _ = (stage, at);
+    }
+
+    /// The next token of a block left.
+    fn left(&mut self, stage: usize, at: u64) {
+        let _ = (stage, at);
+    }
+}
+
+/// Tells nobody.
+impl Probe for () {}
+
 /// What the times of one frame were.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameTimes {
@@ -140,4 +178,14 @@ pub struct FrameTimes {
     pub elapsed: u64,
     /// The blocks of the chain, in its order.
     pub stages: Vec<StageTimes>,
+}
+
+/// What the times of a run were.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Times {
+    /// Frame by frame.
+    pub frames: Vec<FrameTimes>,
+    /// For each block, the cycles of the run at the start of which the FIFO before it held 0, 1, ..
+    /// entries; empty for the first block.
+    pub occupancy: Vec<Vec<u64>>,
 }

@@ -1,0 +1,288 @@
+//! The engine that users run: visits each token once, depth first, and computes its times by the
+//! (max,+) recurrence of [`super`].
+//!
+//! ```text
+//!   feed ─► accept ─► emit ─┬► accept ─► emit ─┬► ..     an output goes all the way down before
+//!                           │                  └► ..     its successor is looked at, so what a
+//!                           └► accept ─► ..              FIFO must remember is when its last
+//! ```                                                    `depth` tokens were taken
+//!
+//! Memory is the FIFOs' depths and the tokens in flight, whatever the length of the run. Which
+//! operand of a maximum won is the attribution: between `ready` and `turn` a block waits for its
+//! other lanes, between `turn` and the time of emission for room.
+
+use super::account::{Fifo, Lanes};
+use super::{Block, Emit, FrameTimes, Frames, Probe, Shape, StageTimes, Times};
+use std::marker::PhantomData;
+
+/// The rules as constants, so that tests can plant a mistake in this engine alone.
+#[doc(hidden)]
+pub trait Rules {
+    /// Cycles until a pop is seen as room.
+    const CREDIT: u64 = 1;
+    /// Whether a lane holds a limited number of tokens.
+    const SLOTS: bool = true;
+    /// Whether a token of several lanes takes the lane that the rules say.
+    const LANES: bool = true;
+    /// Whether stages that share a port get it in the order of evaluation, which is wrong.
+    const PORT_BY_EVALUATION: bool = false;
+}
+
+/// The rules as they are.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Exact;
+
+impl Rules for Exact {}
+
+/// The engine.
+#[derive(Clone, Debug)]
+pub struct Timed<B, P = (), R = Exact> {
+    stages: Vec<Stage<B>>,
+    policy: Frames,
+    frames: Vec<FrameTimes>,
+    /// When the last token so far left, in the frame's time.
+    elapsed: u64,
+    run: Run<P>,
+    rules: PhantomData<R>,
+}
+
+/// What all stages see.
+#[derive(Clone, Debug)]
+struct Run<P> {
+    probe: P,
+    frame: usize,
+    /// Until when the shared port is taken (by tests' mistaken rules only).
+    port: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Stage<B> {
+    index: usize,
+    block: B,
+    /// The FIFO before it; the host's tokens wait in none.
+    fifo: Option<Fifo>,
+    lanes: Lanes,
+    shares_port: bool,
+    /// The cycle after the last acceptance.
+    next_accept: u64,
+    /// The cycle after the last emission.
+    next_emission: u64,
+    /// When the last token left.
+    left: u64,
+    tokens_in: u64,
+    tokens_out: u64,
+}
+
+impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
+    /// An engine over a chain of blocks, the first of which is fed by the host.
+    ///
+    /// # Panics
+    /// When a shape has a zero, or a block shares the port: that takes [`super::ordered`].
+    #[must_use]
+    pub fn new(chain: Vec<(B, Shape)>, policy: Frames, probe: P) -> Self {
+        let stage = |(index, (block, shape)): (usize, (B, Shape))| {
+            shape.check();
+            assert!(!shape.shares_port || R::PORT_BY_EVALUATION, "a shared port is not timed here");
+            Stage {
+                index,
+                block,
+                fifo: (index > 0).then(|| Fifo::new(shape.depth)),
+                lanes: Lanes::new(&shape),
+                shares_port: shape.shares_port,
+                next_accept: 0,
+                next_emission: 0,
+                left: 0,
+                tokens_in: 0,
+                tokens_out: 0,
+            }
+        };
+        Self {
+            stages: chain.into_iter().enumerate().map(stage).collect(),
+            policy,
+            frames: Vec::new(),
+            elapsed: 0,
+            run: Run { probe, frame: 0, port: 0 },
+            rules: PhantomData,
+        }
+    }
+
+    /// The host sends a token, as soon as the first block takes it.
+    pub fn feed(&mut self, token: B::Token) {
+        push::<B, P, R>(&mut self.stages, token, 0, &mut self.run);
+    }
+
+    /// The frame's last token has been fed.
+    pub fn end_frame(&mut self) {
+        let before = self.elapsed;
+        let left = self.stages.iter().map(|stage| stage.left).max();
+        let elapsed = left.unwrap_or(0).max(before);
+        let stages = self.stages.iter_mut();
+        let (added, stages) = match self.policy {
+            Frames::Drain => {
+                self.elapsed = 0;
+                self.run.port = 0;
+                (elapsed, stages.map(|stage| stage.drain(elapsed)).collect())
+            }
+            Frames::Overlap => {
+                self.elapsed = elapsed;
+                (elapsed - before, stages.map(Stage::overlap).collect())
+            }
+        };
+        self.frames.push(FrameTimes { elapsed: added, stages });
+        self.run.frame += 1;
+    }
+
+    /// The times of the run.
+    ///
+    /// # Panics
+    /// When tokens were fed after the last end of a frame.
+    #[must_use]
+    pub fn finish(mut self) -> (Times, P) {
+        assert!(self.stages.iter().all(|stage| stage.tokens_in == 0), "the last frame has ended");
+        for (k, stage) in self.stages.iter_mut().enumerate() {
+            let mut times: Vec<_> =
+                self.frames.iter_mut().map(|f| std::mem::take(&mut f.stages[k])).collect();
+            if let Some(last) = times.len().checked_sub(1) {
+                stage.lanes.finish(self.elapsed, last, &mut times);
+            }
+            for (frame, times) in self.frames.iter_mut().zip(times) {
+                frame.stages[k] = times;
+            }
+            if let Some(fifo) = &mut stage.fifo {
+                fifo.drain(self.elapsed);
+            }
+        }
+        let cycles = |stage: Stage<B>| stage.fifo.map_or_else(Vec::new, Fifo::into_cycles);
+        let occupancy = self.stages.into_iter().map(cycles).collect();
+        (Times { frames: self.frames, occupancy }, self.run.probe)
+    }
+}
+
+impl<B> Stage<B> {
+    fn counts(&mut self) -> StageTimes {
+        StageTimes {
+            tokens_in: std::mem::take(&mut self.tokens_in),
+            tokens_out: std::mem::take(&mut self.tokens_out),
+            fifo_peak: self.fifo.as_mut().map_or(0, Fifo::take_peak),
+            ..StageTimes::default()
+        }
+    }
+
+    fn drain(&mut self, elapsed: u64) -> StageTimes {
+        let mut times = self.counts();
+        self.lanes.drain(elapsed, &mut times);
+        if let Some(fifo) = &mut self.fifo {
+            fifo.drain(elapsed);
+        }
+        (self.next_accept, self.next_emission, self.left) = (0, 0, 0);
+        times
+    }
+
+    fn overlap(&mut self) -> StageTimes {
+        let mut times = self.counts();
+        self.lanes.overlap(&mut times);
+        times
+    }
+}
+
+/// Takes a token through the first of `stages`, and what it makes of it through the rest. The token
+/// is seen there from the start of cycle `arrived`.
+fn push<B: Block, P: Probe, R: Rules>(
+    stages: &mut [Stage<B>],
+    token: B::Token,
+    arrived: u64,
+    run: &mut Run<P>,
+) {
+    let (stage, rest) = stages.split_first_mut().expect("a chain has blocks");
+    let mut from = arrived.max(stage.next_accept);
+    if R::PORT_BY_EVALUATION && stage.shares_port {
+        from = by_evaluation(stage, &token, from, &mut run.port);
+    }
+    let (lane, accept) = stage.lanes.choose(from);
+    let lane = if R::LANES { lane } else { stage.lanes.lanes.len() - 1 - lane };
+    run.probe.accepted(stage.index, lane, accept);
+    stage.next_accept = accept + 1;
+    stage.tokens_in += 1;
+    if let Some(fifo) = &mut stage.fifo {
+        fifo.pass(arrived, accept);
+    }
+    let mut outputs = Outputs::<B, P, R> {
+        stage: stage.index,
+        accept,
+        turn: stage.next_emission.max(stage.left),
+        head: stage.lanes.lanes[lane].head,
+        count: 0,
+        blocked: 0,
+        by_order: 0,
+        rest,
+        run,
+        rules: PhantomData,
+    };
+    let cost = stage.block.accept(token, &mut outputs);
+    let Outputs { turn, count, blocked, by_order, run, .. } = outputs;
+    assert!(cost.interval >= 1, "an initiation interval is at least a cycle");
+    if count > 0 {
+        stage.next_emission = turn;
+        stage.left = turn - 1;
+        stage.tokens_out += count;
+    } else {
+        stage.left = stage.left.max(accept + u64::from(cost.latency));
+    }
+    let next = accept + u64::from(cost.interval);
+    let books = &mut stage.lanes.lanes[lane];
+    books.blocked += blocked;
+    books.by_order += by_order;
+    let ready = books.done(accept, stage.left, next, run.frame);
+    stage.lanes.took(lane, if R::SLOTS { ready } else { next });
+    run.probe.left(stage.index, stage.left);
+}
+
+/// When a token gets the port, if whoever is evaluated first gets it first.
+fn by_evaluation<B: Block>(
+    stage: &Stage<B>,
+    token: &B::Token,
+    from: u64,
+    port_free: &mut u64,
+) -> u64 {
+    let Some(cycles) = stage.block.port(token) else { return from };
+    let (_, accept) = stage.lanes.choose(from.max(*port_free));
+    *port_free = accept + u64::from(cycles);
+    accept
+}
+
+/// Where a token's outputs go: on down the chain.
+struct Outputs<'a, B, P, R> {
+    stage: usize,
+    accept: u64,
+    /// The first cycle in which order lets the next output leave.
+    turn: u64,
+    /// The first cycle in which the lane has no older token and no earlier output.
+    head: u64,
+    count: u64,
+    blocked: u64,
+    by_order: u64,
+    rest: &'a mut [Stage<B>],
+    run: &'a mut Run<P>,
+    rules: PhantomData<R>,
+}
+
+impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
+    #[inline(always)]
+    fn emit(&mut self, token: B::Token, offset: u32) {
+        let ready = self.accept + u64::from(offset);
+        let turn = ready.max(self.turn);
+        let first = ready.max(self.head);
+        let room = self.rest.first().and_then(|next| next.fifo.as_ref()).map_or(0, Fifo::room);
+        let at = turn.max(room.saturating_sub(1 - R::CREDIT));
+        self.by_order += turn.saturating_sub(first);
+        self.blocked += at.saturating_sub(turn.max(first));
+        self.turn = at + 1;
+        self.head = at + 1;
+        self.count += 1;
+        self.run.probe.emitted(self.stage, at);
+        if !self.rest.is_empty() {
+            push::<B, P, R>(self.rest, token, at + 1, self.run);
+        }
+    }
+}
