@@ -113,6 +113,9 @@ pub(super) struct Lane {
     start: u64,
     /// The frame of its last token.
     frame: usize,
+    /// Frames that the next one overlaps and where their shares ended, as far as that may be after
+    /// the end of the run.
+    ends: Vec<(usize, u64)>,
     /// Cycles in flight since then.
     in_flight: u64,
     /// Of these, blocked by downstream.
@@ -132,6 +135,7 @@ impl Lane {
             covered: 0,
             start: 0,
             frame: 0,
+            ends: Vec::new(),
             in_flight: 0,
             blocked: 0,
             by_order: 0,
@@ -171,7 +175,31 @@ impl Lane {
         times: impl FnOnce(usize) -> &'a mut StageTimes,
     ) {
         if frame != self.frame {
-            self.close(self.covered.max(self.start), times(self.frame));
+            self.close_overlapped(times(self.frame));
+        }
+    }
+
+    /// Closes the lane's share of a frame where its last token is through it.
+    fn close_overlapped(&mut self, times: &mut StageTimes) {
+        let end = self.covered.max(self.start);
+        self.close(end, times);
+        let head = self.head;
+        self.ends.retain(|&(_, end)| end >= head);
+        self.ends.push((self.frame, end));
+    }
+
+    /// Extends or cuts the lane's shares to the end of the run.
+    fn finish(&mut self, elapsed: u64, last: usize, times: &mut [StageTimes]) {
+        let tail = elapsed.saturating_sub(self.start);
+        times[last].starved += tail;
+        times[last].total += tail;
+        // A token that leaves in the last cycle, or an initiation interval that outlasts the run.
+        let mut from = elapsed;
+        for (frame, end) in std::mem::take(&mut self.ends) {
+            let over = end.saturating_sub(from);
+            times[frame].busy -= over;
+            times[frame].total -= over;
+            from = from.max(end);
         }
     }
 
@@ -289,7 +317,7 @@ impl Lanes {
     /// does.
     pub(super) fn overlap(&mut self, times: &mut StageTimes) {
         for lane in &mut self.lanes {
-            lane.close(lane.covered.max(lane.start), times);
+            lane.close_overlapped(times);
         }
     }
 
@@ -297,14 +325,7 @@ impl Lanes {
     /// a frame.
     pub(super) fn finish(&mut self, elapsed: u64, last: usize, times: &mut [StageTimes]) {
         for lane in &mut self.lanes {
-            if lane.start <= elapsed {
-                times[last].starved += elapsed - lane.start;
-                times[last].total += elapsed - lane.start;
-            } else {
-                let over = lane.start - elapsed; // an initiation interval outlasts the run
-                times[lane.frame].busy -= over;
-                times[lane.frame].total -= over;
-            }
+            lane.finish(elapsed, last, times);
         }
     }
 }

@@ -38,7 +38,9 @@ fn assert_conserved((times, log): &Outcome, pipeline: &Pipeline) {
 #[test]
 fn the_engines_agree_on_every_token_and_every_counter() {
     let (mut tokens, mut cycles) = (0, 0);
-    for seed in 0..pipelines() {
+    // The last one is the first of a long campaign in which tokens of two frames leave a lane in the
+    // run's last cycle.
+    for seed in (0..pipelines()).chain([14069]) {
         let pipeline = Pipeline::random(seed, false);
         let plain = stepped(&pipeline);
         assert_eq!(timed::<Exact>(&pipeline), plain, "timed, pipeline {seed}: {pipeline:?}");
@@ -53,7 +55,7 @@ fn the_engines_agree_on_every_token_and_every_counter() {
 #[test]
 fn the_engines_agree_where_stages_share_a_port() {
     let (mut tokens, mut waited) = (0, 0);
-    for seed in 0..pipelines() {
+    for seed in (0..pipelines()).chain([16301]) {
         let mut pipeline = Pipeline::random(seed ^ 0x9057, true);
         // The topology that evaluation order gets wrong: the first stage and the last share it.
         for k in [0, pipeline.chain.len() - 1] {
