@@ -2,7 +2,8 @@
 //! and the cycles of a lane.
 //!
 //! Times come in as they are computed, in the order of tokens, and never go back, so that a union
-//! of intervals is one running maximum and a histogram is two pointers.
+//! of intervals is one running maximum and a histogram is two pointers. What nothing waits for is
+//! the most frequent case, and costs least: it leaves no trace but a count.
 
 use super::{LaneOrder, Shape, StageTimes};
 
@@ -13,21 +14,33 @@ pub(super) struct Fifo {
     credits: Box<[u64]>,
     /// Where the next token's acceptance goes, which is where that of `depth` tokens ago stands.
     next: usize,
-    /// Up to which cycle `cycles` is complete.
-    cursor: u64,
-    /// Entries at the start of that cycle.
+    /// Entries at the start of cycle `cursor`, up to which `cycles` is complete.
     held: usize,
-    /// Most entries since the frame began.
-    peak: u64,
-    /// Cycles at the start of which there were 0, 1, .. entries.
+    cursor: u64,
+    /// Entries that were alone, and taken in the first cycle in which they were seen.
+    prompt: u64,
+    /// Cycles at the start of which there were 0, 1, .. entries, but for the prompt ones; those
+    /// with none are what is left of the run.
     cycles: Vec<u64>,
+    /// Most entries since the frame began.
+    peak: usize,
+    /// Whether any entry was prompt since the frame began.
+    prompt_before: u64,
 }
 
 impl Fifo {
     pub(super) fn new(depth: u32) -> Self {
         let depth = depth as usize;
-        let credits = vec![0; depth].into_boxed_slice();
-        Self { credits, next: 0, cursor: 0, held: 0, peak: 0, cycles: vec![0; depth + 1] }
+        Self {
+            credits: vec![0; depth].into_boxed_slice(),
+            next: 0,
+            held: 0,
+            cursor: 0,
+            prompt: 0,
+            cycles: vec![0; depth + 1],
+            peak: 0,
+            prompt_before: 0,
+        }
     }
 
     /// The first cycle in which the next token may be pushed.
@@ -44,10 +57,11 @@ impl Fifo {
     /// The next token, seen from the start of cycle `arrived`, was accepted in cycle `accept`.
     #[inline(always)]
     pub(super) fn pass(&mut self, arrived: u64, accept: u64) {
-        self.pop_until(arrived);
-        self.advance(arrived);
-        self.held += 1;
-        self.peak = self.peak.max(self.held as u64);
+        if self.held == 0 && accept == arrived {
+            self.prompt += 1;
+        } else {
+            self.queue(arrived, accept);
+        }
         self.credits[self.next] = accept + 1;
         self.next += 1;
         if self.next == self.credits.len() {
@@ -55,8 +69,19 @@ impl Fifo {
         }
     }
 
+    /// The same where it waited, or found others.
+    fn queue(&mut self, arrived: u64, accept: u64) {
+        self.pop_until(arrived);
+        if self.held == 0 && accept == arrived {
+            self.prompt += 1;
+            return;
+        }
+        self.advance(arrived);
+        self.held += 1;
+        self.peak = self.peak.max(self.held);
+    }
+
     /// Takes out the entries that were accepted before `cycle`.
-    #[inline(always)]
     fn pop_until(&mut self, cycle: u64) {
         while self.held > 0 {
             let oldest = if self.next >= self.held {
@@ -73,28 +98,42 @@ impl Fifo {
         }
     }
 
-    #[inline(always)]
+    /// Cycles with no entries are not counted here.
     fn advance(&mut self, cycle: u64) {
-        self.cycles[self.held] += cycle - self.cursor;
+        if self.held > 0 {
+            self.cycles[self.held] += cycle - self.cursor;
+        }
         self.cursor = cycle;
     }
 
     /// The most entries at the start of any cycle of the frame that ends here.
     pub(super) fn take_peak(&mut self) -> u64 {
-        std::mem::take(&mut self.peak)
+        let any_prompt = self.prompt != self.prompt_before;
+        self.prompt_before = self.prompt;
+        std::mem::take(&mut self.peak).max(usize::from(any_prompt)) as u64
     }
 
     /// All has left by cycle `elapsed`, and time starts again at 0.
     pub(super) fn drain(&mut self, elapsed: u64) {
-        // What was accepted in the last cycle, which does not count, is still held at its start.
+        let last = self.next.checked_sub(1).unwrap_or(self.credits.len() - 1);
+        if self.held == 0 && self.credits[last] > elapsed {
+            // The last entry was prompt, in the cycle that does not count.
+            self.prompt -= 1;
+            self.prompt_before -= 1;
+        }
+        // What was accepted in that cycle is still held at its start.
         self.pop_until(elapsed);
         self.advance(elapsed);
+        self.cycles[0] += elapsed;
         self.credits.fill(0);
         (self.next, self.cursor, self.held) = (0, 0, 0);
     }
 
     /// The histogram.
-    pub(super) fn into_cycles(self) -> Vec<u64> {
+    pub(super) fn into_cycles(mut self) -> Vec<u64> {
+        self.cycles[1] += self.prompt;
+        let some: u64 = self.cycles[1..].iter().sum();
+        self.cycles[0] -= some;
         self.cycles
     }
 }
@@ -102,6 +141,8 @@ impl Fifo {
 /// One lane of a block.
 #[derive(Clone, Debug)]
 pub(super) struct Lane {
+    /// The first cycle in which it has time and a slot for a token.
+    pub(super) ready: u64,
     /// The cycle after each of its last tokens left: when their slots are free again.
     slots: Box<[u64]>,
     slot: usize,
@@ -109,37 +150,38 @@ pub(super) struct Lane {
     pub(super) head: u64,
     /// In flight up to this cycle.
     covered: u64,
-    /// Where its share of the frame began.
-    start: u64,
+    /// Cycles since its share of the frame began in which it was not in flight.
+    idle: u64,
+    /// Of these, starved by the port.
+    by_port: u64,
+    /// Cycles in flight in which it was blocked by downstream.
+    pub(super) blocked: u64,
+    /// By order.
+    pub(super) by_order: u64,
     /// The frame of its last token.
     frame: usize,
+    /// Where its share of the frame began.
+    start: u64,
     /// Frames that the next one overlaps and where their shares ended, as far as that may be after
     /// the end of the run.
     ends: Vec<(usize, u64)>,
-    /// Cycles in flight since then.
-    in_flight: u64,
-    /// Of these, blocked by downstream.
-    pub(super) blocked: u64,
-    /// Of these, blocked by order.
-    pub(super) by_order: u64,
-    /// Of those not in flight, starved by the port.
-    by_port: u64,
 }
 
 impl Lane {
     fn new(in_flight: u32) -> Self {
         Self {
+            ready: 0,
             slots: vec![0; in_flight as usize].into_boxed_slice(),
             slot: 0,
             head: 0,
             covered: 0,
-            start: 0,
-            frame: 0,
-            ends: Vec::new(),
-            in_flight: 0,
+            idle: 0,
+            by_port: 0,
             blocked: 0,
             by_order: 0,
-            by_port: 0,
+            frame: 0,
+            start: 0,
+            ends: Vec::new(),
         }
     }
 
@@ -147,10 +189,9 @@ impl Lane {
     /// Returns the first cycle in which it has both time and a slot for one.
     #[inline(always)]
     pub(super) fn done(&mut self, accept: u64, left: u64, next: u64, frame: usize) -> u64 {
-        let end = next.max(left + 1);
-        self.in_flight += end - accept.max(self.covered);
-        self.covered = end;
+        self.idle += accept.saturating_sub(self.covered);
         self.head = left + 1;
+        self.covered = next.max(left + 1);
         self.frame = frame;
         self.slots[self.slot] = left + 1;
         self.slot += 1;
@@ -167,6 +208,11 @@ impl Lane {
         (in_flight < slots).then(|| self.slots[(self.slot + in_flight) % slots])
     }
 
+    /// A token that could have been accepted at `from` waited for the port until `accept`.
+    pub(super) fn waited(&mut self, from: u64, accept: u64) {
+        self.by_port += accept.saturating_sub(from.max(self.covered));
+    }
+
     /// The next token is of this frame: if that is another one, the lane's share of the last one's
     /// ends where its last token does.
     pub(super) fn turn_to<'a>(
@@ -175,12 +221,32 @@ impl Lane {
         times: impl FnOnce(usize) -> &'a mut StageTimes,
     ) {
         if frame != self.frame {
-            self.close_overlapped(times(self.frame));
+            self.overlap(times(self.frame));
         }
     }
 
+    /// Closes the lane's share of a frame at cycle `end`, and adds it to the block's.
+    ///
+    /// # Panics
+    /// When the cycles do not add up.
+    fn close(&mut self, end: u64, times: &mut StageTimes) {
+        // An initiation interval may outlast the run; else the lane idles at the end.
+        let idle = self.idle + end.saturating_sub(self.covered);
+        let total = end - self.start;
+        let taken = self.blocked + self.by_order;
+        assert!(taken + idle <= total && self.by_port <= idle, "cycles add up: {self:?}");
+        times.busy += total - idle - taken;
+        times.blocked += self.blocked;
+        times.blocked_by_order += self.by_order;
+        times.starved_by_port += self.by_port;
+        times.starved += idle - self.by_port;
+        times.total += total;
+        (self.start, self.idle, self.by_port) = (end, 0, 0);
+        (self.blocked, self.by_order) = (0, 0);
+    }
+
     /// Closes the lane's share of a frame where its last token is through it.
-    fn close_overlapped(&mut self, times: &mut StageTimes) {
+    fn overlap(&mut self, times: &mut StageTimes) {
         let end = self.covered.max(self.start);
         self.close(end, times);
         let head = self.head;
@@ -203,34 +269,10 @@ impl Lane {
         }
     }
 
-    /// A token that could have been accepted at `from` waited for the port until `accept`.
-    pub(super) fn waited(&mut self, from: u64, accept: u64) {
-        self.by_port += accept.saturating_sub(from.max(self.covered));
-    }
-
-    /// Closes the lane's share of a frame at cycle `end`, and adds it to the block's.
-    ///
-    /// # Panics
-    /// When the cycles do not add up.
-    fn close(&mut self, end: u64, times: &mut StageTimes) {
-        // An initiation interval may outlast the run.
-        let in_flight = self.in_flight - self.covered.saturating_sub(end);
-        let total = end - self.start;
-        let taken = self.blocked + self.by_order;
-        assert!(taken <= in_flight && in_flight + self.by_port <= total, "cycles add up: {self:?}");
-        times.busy += in_flight - taken;
-        times.blocked += self.blocked;
-        times.blocked_by_order += self.by_order;
-        times.starved_by_port += self.by_port;
-        times.starved += total - in_flight - self.by_port;
-        times.total += total;
-        (self.start, self.in_flight, self.blocked) = (end, 0, 0);
-        (self.by_order, self.by_port) = (0, 0);
-    }
-
-    fn drain(&mut self) {
+    /// Time starts again at 0.
+    fn restart(&mut self) {
         self.slots.fill(0);
-        (self.slot, self.head, self.covered, self.start) = (0, 0, 0, 0);
+        (self.ready, self.slot, self.head, self.covered, self.start) = (0, 0, 0, 0, 0);
     }
 }
 
@@ -240,92 +282,78 @@ pub(super) struct Lanes {
     order: LaneOrder,
     /// Of round robin: the next lane.
     turn: usize,
-    /// When each lane has time and a slot for a token.
-    ready: Vec<u64>,
-    pub(super) lanes: Vec<Lane>,
+    /// The first lane, mostly the only one.
+    first: Lane,
+    others: Vec<Lane>,
 }
 
 impl Lanes {
     pub(super) fn new(shape: &Shape) -> Self {
-        let lanes = shape.lanes as usize;
-        Self {
-            order: shape.order,
-            turn: 0,
-            ready: vec![0; lanes],
-            lanes: vec![Lane::new(shape.in_flight); lanes],
-        }
+        let lane = Lane::new(shape.in_flight);
+        let others = vec![lane.clone(); shape.lanes as usize - 1];
+        Self { order: shape.order, turn: 0, first: lane, others }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        1 + self.others.len()
+    }
+
+    #[inline(always)]
+    pub(super) fn lane(&mut self, lane: usize) -> &mut Lane {
+        if lane == 0 { &mut self.first } else { &mut self.others[lane - 1] }
+    }
+
+    pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Lane> {
+        std::iter::once(&mut self.first).chain(&mut self.others)
     }
 
     /// The lane that takes a token which could be accepted at `from`, and when it does.
     #[inline(always)]
     pub(super) fn choose(&self, from: u64) -> (usize, u64) {
-        if let [ready] = self.ready[..] {
-            return (0, ready.max(from));
-        }
+        if self.others.is_empty() { (0, from.max(self.first.ready)) } else { self.one_of(from) }
+    }
+
+    fn one_of(&self, from: u64) -> (usize, u64) {
+        let ready =
+            |lane: usize| if lane == 0 { self.first.ready } else { self.others[lane - 1].ready };
         let lane = match self.order {
             LaneOrder::RoundRobin => self.turn,
-            LaneOrder::FirstFree => self.first_free(from),
+            LaneOrder::FirstFree => (0..self.len())
+                .find(|&lane| ready(lane) <= from)
+                .or_else(|| (0..self.len()).min_by_key(|&lane| ready(lane)))
+                .expect("a block has lanes"),
         };
-        (lane, self.ready[lane].max(from))
+        (lane, from.max(ready(lane)))
     }
 
-    fn first_free(&self, from: u64) -> usize {
-        let mut best = 0;
-        for (lane, &ready) in self.ready.iter().enumerate() {
-            if ready <= from {
-                return lane;
-            }
-            if ready < self.ready[best] {
-                best = lane;
-            }
-        }
-        best
-    }
-
-    /// The lane took its token and is ready for the next one at `ready`.
+    /// A lane took its token.
     #[inline(always)]
-    pub(super) fn took(&mut self, lane: usize, ready: u64) {
-        self.ready[lane] = ready;
+    pub(super) fn took(&mut self) {
         self.turn += 1;
-        if self.turn >= self.ready.len() {
+        if self.turn >= self.len() {
             self.turn = 0;
         }
-    }
-
-    /// It is known anew when the lane has time and a slot for a token.
-    pub(super) fn set_ready(&mut self, lane: usize, ready: u64) {
-        self.ready[lane] = ready;
-    }
-
-    /// When the lane has time and a slot for a token.
-    pub(super) fn ready(&self, lane: usize) -> u64 {
-        self.ready[lane]
     }
 
     /// Closes a frame that is drained: every lane's share of it ends at `elapsed`, and time starts
     /// again.
     pub(super) fn drain(&mut self, elapsed: u64, times: &mut StageTimes) {
-        for lane in &mut self.lanes {
+        for lane in self.all() {
             lane.close(elapsed, times);
-            lane.drain();
+            lane.restart();
         }
-        self.ready.fill(0);
         self.turn = 0;
     }
 
     /// Closes a frame that the next one overlaps: a lane's share of it ends where its last token
     /// does.
     pub(super) fn overlap(&mut self, times: &mut StageTimes) {
-        for lane in &mut self.lanes {
-            lane.close_overlapped(times);
-        }
+        self.all().for_each(|lane| lane.overlap(times));
     }
 
     /// Extends or cuts the lanes' shares to the end of the run. `times` gives the block's times in
-    /// a frame.
+    /// each frame.
     pub(super) fn finish(&mut self, elapsed: u64, last: usize, times: &mut [StageTimes]) {
-        for lane in &mut self.lanes {
-            lane.finish(elapsed, last, times);
-        }
+        self.all().for_each(|lane| lane.finish(elapsed, last, times));
     }
 }

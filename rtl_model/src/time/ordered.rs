@@ -234,7 +234,7 @@ impl<B: Block> Stage<B> {
     fn accept(&mut self, port_free: &mut u64, frames: &mut [FrameTimes], probe: &mut impl Probe) {
         let (lane, accept) = self.acceptance(*port_free).expect("it was the next event");
         let Arrival { token, at, frame } = self.arrivals.pop_front().expect("it has arrived");
-        let without_port = at.max(self.next_accept).max(self.lanes.ready(lane));
+        let without_port = at.max(self.next_accept).max(self.lanes.lane(lane).ready);
         let port = self.block.port(&token).filter(|_| self.shape.shares_port);
         if let Some(cycles) = port {
             *port_free = accept + u64::from(cycles);
@@ -266,15 +266,16 @@ impl<B: Block> Stage<B> {
         probe.accepted(self.index, lane, accept);
         let (in_flight, _) = self.busy[lane];
         self.busy[lane] = (in_flight + 1, next);
-        self.lanes.took(lane, self.lane_ready(lane));
+        self.know_ready(lane);
+        self.lanes.took();
         self.retire(frames, probe);
     }
 
     /// When a lane has time and a slot for a token, as far as is known.
-    fn lane_ready(&self, lane: usize) -> u64 {
+    fn know_ready(&mut self, lane: usize) {
         let (in_flight, next) = self.busy[lane];
-        let slot = self.lanes.lanes[lane].slot_behind(in_flight);
-        slot.map_or(NEVER, |free| free.max(next))
+        let lane = self.lanes.lane(lane);
+        lane.ready = lane.slot_behind(in_flight).map_or(NEVER, |free| free.max(next));
     }
 
     fn emit(&mut self, next: Option<&mut Self>, frames: &mut [FrameTimes], probe: &mut impl Probe) {
@@ -282,10 +283,11 @@ impl<B: Block> Stage<B> {
         let (token, ready) = self.outputs.pop_front().expect("it is ready");
         let flight = self.flights.front_mut().expect("an output belongs to a token");
         // Its lane's older tokens have left, and its own earlier outputs.
-        let first = ready.max(self.lanes.lanes[flight.lane].head);
+        let lane = self.lanes.lane(flight.lane);
+        let first = ready.max(lane.head);
         flight.by_order += turn.saturating_sub(first);
         flight.blocked += at.saturating_sub(turn.max(first));
-        self.lanes.lanes[flight.lane].head = at + 1;
+        lane.head = at + 1;
         flight.outputs -= 1;
         flight.done = at;
         self.next_emission = at + 1;
@@ -306,15 +308,14 @@ impl<B: Block> Stage<B> {
             self.left = self.left.max(flight.done);
             frames[frame].elapsed = frames[frame].elapsed.max(self.left);
             probe.left(self.index, self.left);
-            let books = &mut self.lanes.lanes[lane];
+            let books = self.lanes.lane(lane);
             books.turn_to(frame, |last| &mut frames[last].stages[self.index]);
             books.waited(flight.waited_from, flight.accept);
             books.blocked += flight.blocked;
             books.by_order += flight.by_order;
             books.done(flight.accept, self.left, flight.next, frame);
             self.busy[lane].0 -= 1;
-            let ready = self.lane_ready(lane);
-            self.lanes.set_ready(lane, ready);
+            self.know_ready(lane);
         }
     }
 
@@ -334,7 +335,7 @@ impl<B: Block> Stage<B> {
         let Some(last) = frames.len().checked_sub(1) else { return };
         let mut times: Vec<_> =
             frames.iter_mut().map(|frame| std::mem::take(&mut frame.stages[self.index])).collect();
-        for lane in &mut self.lanes.lanes {
+        for lane in self.lanes.all() {
             lane.turn_to(usize::MAX, |frame| &mut times[frame]);
         }
         self.lanes.finish(elapsed, last, &mut times);

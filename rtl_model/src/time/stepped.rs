@@ -16,8 +16,8 @@ use std::collections::VecDeque;
 pub struct Stepped<B: Block, P = ()> {
     stages: Vec<Stage<B>>,
     policy: Frames,
-    /// Until the end of the run, `elapsed` is when the frame's last token left.
-    frames: Vec<FrameTimes>,
+    /// When the last token of each frame left.
+    left: Vec<u64>,
     /// The frame that is being fed.
     frame: usize,
     now: u64,
@@ -45,6 +45,8 @@ struct Stage<B: Block> {
     held: usize,
     /// Cycles that began with 0, 1, .. entries.
     occupancy: Vec<u64>,
+    /// Frame by frame.
+    times: Vec<StageTimes>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -75,10 +77,9 @@ struct Lane {
     last: usize,
     /// What it did in the last cycle.
     state: State,
-    /// Idle cycles since its last token: they belong to the next token's frame.
-    idle: u64,
-    /// Of these, with a token at the door that waited for the port.
-    waiting: u64,
+    /// How many cycles it did what, since it was entered in the books of a frame. Idle cycles
+    /// belong to the frame of the next token.
+    cycles: [u64; 6],
 }
 
 /// What a lane did in a cycle.
@@ -87,11 +88,37 @@ enum State {
     /// There was no such cycle.
     #[default]
     None,
+    /// Nothing was in flight.
     Idle,
+    /// Nor was it, but a token at the door waited for the port.
     Waiting,
     Busy,
     Blocked,
     BlockedByOrder,
+}
+
+impl Lane {
+    fn take(&mut self, state: State) -> u64 {
+        std::mem::take(&mut self.cycles[state as usize])
+    }
+
+    /// Enters what it did with tokens of its frame.
+    fn enter(&mut self, times: &mut [StageTimes]) {
+        let Some(times) = times.get_mut(self.frame) else { return };
+        let cycles = [State::Busy, State::Blocked, State::BlockedByOrder].map(|s| self.take(s));
+        times.busy += cycles[0];
+        times.blocked += cycles[1];
+        times.blocked_by_order += cycles[2];
+        times.total += cycles.iter().sum::<u64>();
+    }
+
+    /// Enters the cycles in which it had nothing to do, before a token of the frame of `times`.
+    fn enter_idle(&mut self, times: &mut StageTimes) {
+        let (idle, waiting) = (self.take(State::Idle), self.take(State::Waiting));
+        times.starved += idle;
+        times.starved_by_port += waiting;
+        times.total += idle + waiting;
+    }
 }
 
 /// Collects the outputs of one token.
@@ -118,7 +145,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         Self {
             stages: stages.map(|(k, (block, shape))| Stage::new(k, block, shape)).collect(),
             policy,
-            frames: Vec::new(),
+            left: Vec::new(),
             frame: 0,
             now: 0,
             port_free: 0,
@@ -155,24 +182,24 @@ impl<B: Block, P: Probe> Stepped<B, P> {
     /// When tokens were fed after the last end of a frame.
     #[must_use]
     pub fn finish(mut self) -> (Times, P) {
-        assert_eq!(self.frames.len(), self.frame, "the last frame has ended");
+        assert_eq!(self.left.len(), self.frame, "the last frame has ended");
         self.drain();
-        if self.policy == Frames::Overlap {
-            let mut before = 0;
-            for frame in &mut self.frames {
-                let left = frame.elapsed.max(before);
-                frame.elapsed = left - before;
-                before = left;
-            }
+        let mut before = 0;
+        let mut frames = Vec::new();
+        for (frame, &left) in self.left.iter().enumerate() {
+            let left = left.max(before);
+            let stages = self.stages.iter().map(|stage| stage.times[frame].clone()).collect();
+            frames.push(FrameTimes { elapsed: left - before, stages });
+            before = if self.policy == Frames::Overlap { left } else { 0 };
         }
         let occupancy = self.stages.into_iter().map(|stage| stage.occupancy).collect();
-        (Times { frames: self.frames, occupancy }, self.probe)
+        (Times { frames, occupancy }, self.probe)
     }
 
     fn open_books(&mut self) {
-        if self.frames.len() == self.frame {
-            let stages = vec![StageTimes::default(); self.stages.len()];
-            self.frames.push(FrameTimes { elapsed: 0, stages });
+        if self.left.len() == self.frame {
+            self.left.push(0);
+            self.stages.iter_mut().for_each(|stage| stage.times.push(StageTimes::default()));
         }
     }
 
@@ -181,13 +208,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         while self.stages.iter().any(|stage| !stage.is_empty()) {
             self.cycle();
         }
-        let Some(last) = self.frames.last_mut() else { return };
-        for (stage, times) in self.stages.iter_mut().zip(&mut last.stages) {
-            for lane in &mut stage.lanes {
-                times.starved += lane.idle;
-                times.total += std::mem::take(&mut lane.idle);
-            }
-        }
+        self.stages.iter_mut().for_each(Stage::close_books);
     }
 
     fn cycle(&mut self) {
@@ -195,10 +216,14 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         for k in 0..self.stages.len() {
             let (stages, after) = self.stages.split_at_mut(k + 1);
             let stage = &mut stages[k];
-            stage.count_last_cycle(self.now, &mut self.frames);
-            stage.accept(self.now, granted == Some(k), &mut self.frames, &mut self.probe);
-            stage.emit(self.now, after.first_mut(), &mut self.frames, &mut self.probe);
-            stage.note_peak(self.now, &mut self.frames);
+            stage.count_last_cycle(self.now);
+            if stage.is_empty() {
+                stage.observe(self.now, None, 0);
+                continue;
+            }
+            stage.accept(self.now, granted == Some(k), &mut self.probe);
+            stage.emit(self.now, after.first_mut(), &mut self.left, &mut self.probe);
+            stage.note_peak(self.now);
         }
         self.now += 1;
     }
@@ -236,6 +261,7 @@ impl<B: Block> Stage<B> {
             next_accept: 0,
             held: 0,
             occupancy: if index == 0 { Vec::new() } else { vec![0; shape.depth as usize + 1] },
+            times: Vec::new(),
         }
     }
 
@@ -245,7 +271,8 @@ impl<B: Block> Stage<B> {
 
     /// Time starts again at 0.
     fn restart(&mut self) {
-        self.lanes.fill(Lane::default());
+        let frame = self.times.len();
+        self.lanes.fill(Lane { frame, ..Lane::default() });
         (self.round_robin, self.next_accept, self.held) = (0, 0, 0);
     }
 
@@ -275,51 +302,30 @@ impl<B: Block> Stage<B> {
         }
     }
 
-    /// Enters what the lanes did in the cycle before this one into the books.
-    fn count_last_cycle(&mut self, now: u64, frames: &mut [FrameTimes]) {
+    /// Counts what the lanes did in the cycle before this one.
+    fn count_last_cycle(&mut self, now: u64) {
         for lane in &mut self.lanes {
-            let times = &mut frames[lane.frame].stages[self.index];
-            let count = match lane.state {
-                State::None => continue,
-                State::Idle => {
-                    lane.idle += 1;
-                    continue;
-                }
-                State::Waiting => {
-                    lane.idle += 1;
-                    lane.waiting += 1;
-                    continue;
-                }
-                State::Busy => &mut times.busy,
-                State::Blocked => &mut times.blocked,
-                State::BlockedByOrder => &mut times.blocked_by_order,
-            };
-            *count += 1;
-            times.total += 1;
+            lane.cycles[lane.state as usize] += 1;
+            lane.state = State::Idle;
         }
-        if let Some(held) = self.occupancy.get_mut(self.held)
-            && self.lanes[0].state != State::None
-        {
-            *held += 1;
+        if let Some(held) = self.occupancy.get_mut(self.held) {
+            *held += u64::from(now > 0);
         }
         let pushed_now = self.fifo.back().is_some_and(|newest| newest.visible > now);
         self.held = self.fifo.len() - usize::from(pushed_now);
     }
 
     /// Accepts the token at the door, if a lane can take it.
-    fn accept(
-        &mut self,
-        now: u64,
-        granted: bool,
-        frames: &mut [FrameTimes],
-        probe: &mut impl Probe,
-    ) {
-        let wants_port = self.wants_port(now).is_some();
-        for k in 0..self.lanes.len() {
-            let waiting = wants_port && self.is_free(&self.lanes[k], now);
-            self.lanes[k].state = if waiting { State::Waiting } else { State::Idle };
+    fn accept(&mut self, now: u64, granted: bool, probe: &mut impl Probe) {
+        if self.visible(now).is_none() {
+            return;
         }
-        if self.visible(now).is_none() || wants_port && !granted {
+        if self.shape.shares_port && self.wants_port(now).is_some() && !granted {
+            for k in 0..self.lanes.len() {
+                if self.is_free(&self.lanes[k], now) {
+                    self.lanes[k].state = State::Waiting;
+                }
+            }
             return;
         }
         let Some(lane) = self.lane(now) else { return };
@@ -330,47 +336,44 @@ impl<B: Block> Stage<B> {
         let done = now + u64::from(cost.latency);
         self.flights.push_back(Flight { lane, frame, done, outputs });
         self.next_accept = now + 1;
-        self.round_robin = (self.round_robin + 1) % self.lanes.len();
         probe.accepted(self.index, lane, now);
-
-        let times = &mut frames[frame].stages[self.index];
-        let taken = &mut self.lanes[lane];
+        let times = &mut self.times[frame];
         times.tokens_in += 1;
-        times.starved_by_port += taken.waiting;
-        times.starved += taken.idle - taken.waiting;
-        times.total += taken.idle;
-        taken.idle = 0;
+        let taken = &mut self.lanes[lane];
+        taken.enter_idle(times);
         taken.in_flight += 1;
         taken.last = frame;
         taken.next_accept = now + u64::from(cost.interval);
-        for lane in &mut self.lanes {
-            (lane.waiting, lane.state) = (0, State::Idle);
+        if self.shape.lanes > 1 {
+            self.round_robin = (self.round_robin + 1) % self.lanes.len();
+            // The others did not wait for the port: this token did not go to them.
+            for lane in &mut self.lanes {
+                lane.cycles[State::Idle as usize] += lane.take(State::Waiting);
+            }
         }
     }
 
-    /// Lets an output leave and tokens retire.
+    /// Lets an output leave and tokens retire; notes when each frame's last token left.
     fn emit(
         &mut self,
         now: u64,
-        next: Option<&mut Self>,
-        frames: &mut [FrameTimes],
+        mut next: Option<&mut Self>,
+        left: &mut [u64],
         probe: &mut impl Probe,
     ) {
-        let room = next.as_ref().is_none_or(|next| next.fifo.len() < next.shape.depth as usize);
         let mut emitter = None;
         let mut retired = 0;
-        let mut next = next;
         while let Some(flight) = self.flights.get_mut(retired) {
             if flight.outputs > 0 {
-                let ready = self.outputs[0].1 <= now;
-                if !ready || !room || emitter.is_some() {
+                let full = |next: &&mut Self| next.fifo.len() >= next.shape.depth as usize;
+                if emitter.is_some() || self.outputs[0].1 > now || next.as_ref().is_some_and(full) {
                     break;
                 }
                 let (token, _) = self.outputs.pop_front().expect("it is ready");
                 emitter = Some(retired);
                 flight.outputs -= 1;
                 flight.done = now;
-                frames[flight.frame].stages[self.index].tokens_out += 1;
+                self.times[flight.frame].tokens_out += 1;
                 probe.emitted(self.index, now);
                 if let Some(next) = &mut next {
                     let frame = flight.frame;
@@ -385,9 +388,10 @@ impl<B: Block> Stage<B> {
             retired += 1;
         }
         self.observe(now, emitter, retired);
-        for flight in self.flights.drain(..retired) {
+        for _ in 0..retired {
+            let flight = self.flights.pop_front().expect("it retires");
             self.lanes[flight.lane].in_flight -= 1;
-            frames[flight.frame].elapsed = now;
+            left[flight.frame] = now;
             probe.left(self.index, now);
         }
     }
@@ -399,7 +403,10 @@ impl<B: Block> Stage<B> {
         for (k, flight) in self.flights.iter().enumerate() {
             let lane = &mut self.lanes[flight.lane];
             if matches!(lane.state, State::Idle | State::Waiting) {
-                lane.frame = flight.frame;
+                if lane.frame != flight.frame {
+                    lane.enter(&mut self.times);
+                    lane.frame = flight.frame;
+                }
                 let waits =
                     flight.outputs > 0 && emitter != Some(k) && self.outputs[first_output].1 <= now;
                 lane.state = match (waits, k == retired && emitter.is_none()) {
@@ -416,17 +423,30 @@ impl<B: Block> Stage<B> {
         for lane in &mut self.lanes {
             // The initiation interval of its last token is not over.
             if matches!(lane.state, State::Idle | State::Waiting) && now < lane.next_accept {
-                (lane.state, lane.frame) = (State::Busy, lane.last);
+                if lane.frame != lane.last {
+                    lane.enter(&mut self.times);
+                    lane.frame = lane.last;
+                }
+                lane.state = State::Busy;
             }
         }
     }
 
     /// Most entries of the FIFO, at the start of the next cycle.
-    fn note_peak(&mut self, now: u64, frames: &mut [FrameTimes]) {
+    fn note_peak(&mut self, now: u64) {
         let Some(newest) = self.fifo.back() else { return };
-        if self.index > 0 && newest.visible == now + 1 {
-            let peak = &mut frames[newest.frame].stages[self.index].fifo_peak;
+        if newest.visible == now + 1 {
+            let peak = &mut self.times[newest.frame].fifo_peak;
             *peak = (*peak).max(self.fifo.len() as u64);
+        }
+    }
+
+    /// Enters what the lanes did last. What they idled at the end belongs to the last frame.
+    fn close_books(&mut self) {
+        let Some(last) = self.times.len().checked_sub(1) else { return };
+        for lane in &mut self.lanes {
+            lane.enter(&mut self.times);
+            lane.enter_idle(&mut self.times[last]);
         }
     }
 }

@@ -200,7 +200,7 @@ fn push<B: Block, P: Probe, R: Rules>(
         from = by_evaluation(stage, &token, from, &mut run.port);
     }
     let (lane, accept) = stage.lanes.choose(from);
-    let lane = if R::LANES { lane } else { stage.lanes.lanes.len() - 1 - lane };
+    let lane = if R::LANES { lane } else { stage.lanes.len() - 1 - lane };
     run.probe.accepted(stage.index, lane, accept);
     stage.next_accept = accept + 1;
     stage.tokens_in += 1;
@@ -211,7 +211,7 @@ fn push<B: Block, P: Probe, R: Rules>(
         stage: stage.index,
         accept,
         turn: stage.next_emission.max(stage.left),
-        head: stage.lanes.lanes[lane].head,
+        head: stage.lanes.lane(lane).head,
         count: 0,
         blocked: 0,
         by_order: 0,
@@ -230,11 +230,12 @@ fn push<B: Block, P: Probe, R: Rules>(
         stage.left = stage.left.max(accept + u64::from(cost.latency));
     }
     let next = accept + u64::from(cost.interval);
-    let books = &mut stage.lanes.lanes[lane];
+    let books = stage.lanes.lane(lane);
     books.blocked += blocked;
     books.by_order += by_order;
     let ready = books.done(accept, stage.left, next, run.frame);
-    stage.lanes.took(lane, if R::SLOTS { ready } else { next });
+    books.ready = if R::SLOTS { ready } else { next };
+    stage.lanes.took();
     run.probe.left(stage.index, stage.left);
 }
 
@@ -275,8 +276,10 @@ impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
         let first = ready.max(self.head);
         let room = self.rest.first().and_then(|next| next.fifo.as_ref()).map_or(0, Fifo::room);
         let at = turn.max(room.saturating_sub(1 - R::CREDIT));
-        self.by_order += turn.saturating_sub(first);
-        self.blocked += at.saturating_sub(turn.max(first));
+        if at > first {
+            self.by_order += turn.saturating_sub(first);
+            self.blocked += at - turn.max(first);
+        }
         self.turn = at + 1;
         self.head = at + 1;
         self.count += 1;
