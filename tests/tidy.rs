@@ -22,7 +22,8 @@ use std::process::Command;
 const WALKED: [&str; 4] = ["src", "rtl_model/src", "tests", "benches"];
 
 /// Blocks without a golden file, each with its reason.
-const NO_GOLDEN: &[(&str, &str)] = &[];
+const NO_GOLDEN: &[(&str, &str)] =
+    &[("strip", "an order of golden::stitch's triangles, which that definition leaves open")];
 
 /// Modules of `rtl_model` that are no blocks: they compute nothing that could be compared.
 const NO_BLOCKS: [&str; 4] = ["number", "counter", "patch", "time"];

@@ -9,6 +9,8 @@
 //!                                    coefficients
 //! ```
 //!
+//! What flows from evaluate to stitch is a [`strip`]: two rows whose vertices are complete.
+//!
 //! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand
 //! above it in the list below, which is the order of the data.
 
@@ -30,6 +32,8 @@ pub mod backface;
 pub mod level;
 
 pub mod place;
+
+pub mod strip;
 
 pub mod evaluate;
 

@@ -165,38 +165,35 @@ impl Placement {
         self.reciprocals
     }
 
-    /// Vertices on the boundary, which is also its segments.
+    /// The segment counts, on which alone the topology depends.
+    #[must_use]
+    pub fn segments(&self) -> Segments {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|edge| self.edges[edge].segments() as u8);
+        Segments([a, b, c, d, self.u.segments() as u8, self.v.segments() as u8])
+    }
+
+    /// [`Segments::boundary`].
     #[must_use]
     pub fn boundary(&self) -> usize {
-        self.edges.iter().map(List::segments).sum()
+        self.segments().boundary()
     }
 
-    /// Columns and rows of interior vertices.
+    /// [`Segments::interior`].
     #[must_use]
     pub fn interior(&self) -> [usize; 2] {
-        [self.u.segments() - 1, self.v.segments() - 1]
+        self.segments().interior()
     }
 
-    /// Vertices in all.
+    /// [`Segments::vertices`].
     #[must_use]
     pub fn vertices(&self) -> usize {
-        let [columns, rows] = self.interior();
-        self.boundary() + columns * rows
+        self.segments().vertices()
     }
 
-    /// Numbers of the first boundary vertex of each edge, counter-clockwise from (0, 0), and then
-    /// of the first interior vertex: the patch's numbering of vertices is by this order,
-    /// interior row by row.
+    /// [`Segments::starts`].
     #[must_use]
     pub fn starts(&self) -> [usize; 5] {
-        let mut start = 0;
-        let mut starts = [0; 5];
-        for (k, edge) in self.edges.iter().enumerate() {
-            starts[k] = start;
-            start += edge.segments();
-        }
-        starts[4] = start;
-        starts
+        self.segments().starts()
     }
 
     /// The vertex at entry `k` of the list of `edge`.
@@ -205,5 +202,62 @@ impl Placement {
     pub fn boundary_vertex(&self, starts: &[usize; 5], edge: usize, k: usize) -> usize {
         let vertex = if edge < 2 { starts[edge] + k } else { starts[edge + 1] - k };
         if vertex == starts[4] { 0 } else { vertex } // v1 and u0 run against the numbering
+    }
+}
+
+/// Segments of a patch's lists: of the edges v0, u1, v1, u0, and of the interior along u and v.
+/// Each is 1, 3 or an even number to 128. The interior's are 1 where every level is 1, 3 where the
+/// greatest is below 2, else even.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Segments([u8; 6]);
+
+impl Segments {
+    /// Segments of an edge, by its place in the order v0, u1, v1, u0.
+    #[must_use]
+    pub fn edge(&self, edge: usize) -> usize {
+        self.0[..4][edge].into()
+    }
+
+    /// Vertices on the boundary, which is also its segments: at most 512.
+    #[must_use]
+    pub fn boundary(&self) -> usize {
+        self.0[..4].iter().map(|&n| usize::from(n)).sum()
+    }
+
+    /// Columns and rows of interior vertices: both 0 where every level is 1, else 1 to 127.
+    #[must_use]
+    pub fn interior(&self) -> [usize; 2] {
+        [usize::from(self.0[4]) - 1, usize::from(self.0[5]) - 1]
+    }
+
+    /// Whether the greatest level is above 1 and below 2: no vertex stands at a centre.
+    #[must_use]
+    pub fn below_two(&self) -> bool {
+        self.0[4] == 3
+    }
+
+    /// Vertices in all, at most 16641.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        let [columns, rows] = self.interior();
+        self.boundary() + columns * rows
+    }
+
+    /// Triangles: by Euler's formula two an interior vertex and one a boundary vertex, less two.
+    #[must_use]
+    pub fn triangles(&self) -> usize {
+        2 * self.vertices() - self.boundary() - 2
+    }
+
+    /// Numbers of the first boundary vertex of each edge, counter-clockwise from (0, 0), and then
+    /// of the first interior vertex: the patch's numbering of vertices is by this order,
+    /// interior row by row.
+    #[must_use]
+    pub fn starts(&self) -> [usize; 5] {
+        let mut starts = [0; 5];
+        for edge in 0..4 {
+            starts[edge + 1] = starts[edge] + self.edge(edge);
+        }
+        starts
     }
 }
