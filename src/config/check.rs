@@ -2,6 +2,7 @@
 //! what keys demand of each other. Each failure names the key, what was found and what was
 //! expected.
 
+use super::block::{CYCLES_MAX, ENTRIES_MAX, LANES_MAX, TIMED};
 use super::{Config, Criterion, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
 use std::fmt::Display;
@@ -41,7 +42,8 @@ impl Config {
     pub(super) fn problem(&self) -> Result<(), Problem> {
         self.formats()?;
         self.levels()?;
-        self.sizes()
+        self.sizes()?;
+        self.times()
     }
 
     fn formats(&self) -> Result<(), Problem> {
@@ -113,6 +115,31 @@ impl Config {
     }
 }
 
+impl Config {
+    fn times(&self) -> Result<(), Problem> {
+        within("clock_mhz", self.clock_mhz, 1, 100_000)?;
+        for block in TIMED {
+            let costs = self.costs(block).expect("a block that takes time has costs");
+            let key = |name: &str| {
+                let path = format!("block.{}.{name}", block.name());
+                keys::find(&path).expect("the table has the keys of every block").path
+            };
+            within(key("interval"), costs.interval, 1, CYCLES_MAX)?;
+            within(key("latency"), costs.latency, 0, CYCLES_MAX)?;
+            within(key("lanes"), costs.lanes, 1, LANES_MAX)?;
+            within(key("fifo"), costs.fifo, 1, ENTRIES_MAX)?;
+            if let Some(tokens) = costs.in_flight {
+                within(key("in_flight"), tokens, 1, ENTRIES_MAX)?;
+            }
+        }
+        // Written by hand they are checked even under `off`, where no patch takes them.
+        let backface = &self.block.backface;
+        within("block.backface.interval", backface.interval.unwrap_or(1), 1, CYCLES_MAX)?;
+        within("block.backface.latency", backface.latency.unwrap_or(0), 0, CYCLES_MAX)?;
+        within("block.evaluate.setup", self.block.evaluate.setup, 0, CYCLES_MAX)
+    }
+}
+
 fn guard_found(guard: u32, width: u32) -> String {
     format!("{guard} with position.width {width}")
 }
@@ -141,6 +168,7 @@ fn number(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::BackfaceMethod;
 
     fn refused(key: &str, change: impl FnOnce(&mut Config)) {
         let mut config = Config::default();
@@ -167,6 +195,22 @@ mod tests {
         refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
         refused("link.header", |c| c.link.payload = 0);
         refused("memory.burst", |c| c.memory.burst = 0);
+        refused("clock_mhz", |c| c.clock_mhz = 0);
+        refused("clock_mhz", |c| c.clock_mhz = 100_001);
+        refused("block.clip.interval", |c| c.block.clip.interval = 0);
+        refused("block.level.latency", |c| c.block.level.latency = 1_000_001);
+        refused("block.backface.interval", |c| c.block.backface.interval = Some(u32::MAX));
+        refused("block.backface.latency", |c| c.block.backface.latency = Some(u32::MAX));
+        refused("block.backface.interval", |c| {
+            c.backface.method = BackfaceMethod::Off;
+            c.block.backface.interval = Some(0);
+        });
+        refused("block.emit.lanes", |c| c.block.emit.lanes = 0);
+        refused("block.emit.lanes", |c| c.block.emit.lanes = 4097);
+        refused("block.stitch.fifo", |c| c.block.stitch.fifo = 0);
+        refused("block.stitch.fifo", |c| c.block.stitch.fifo = 65537);
+        refused("block.port.in_flight", |c| c.block.port.in_flight = Some(0));
+        refused("block.evaluate.setup", |c| c.block.evaluate.setup = 1_000_001);
         refused("level.min_level", |c| {
             c.level.min_level = Some(4.0);
             c.level.max_level = Some(3.0);

@@ -251,7 +251,13 @@ mod tests {
         assert!(set.starts_with("--set backface.method=maybe: backface.method: found \"maybe\""));
         assert!(message("", &["emit.divides=true"]).contains("`emit.divide`"));
         assert!(message("", &["emit.divide"]).contains("key=value"));
-        assert!(message("", &["engine=timed"]).contains("do not exist yet"));
+        let engine = message("", &["engine=tmied"]);
+        assert!(engine.contains("found \"tmied\", expected timed, stepped or none"), "{engine}");
+        let block = message("[block.stitch]\n  fiof = 2\n", &[]);
+        assert!(block.starts_with("c.toml:2:3: unknown key `block.stitch.fiof`"), "{block}");
+        assert!(block.contains("`block.stitch.fifo`"), "{block}");
+        let fifo = message("[block.stitch]\nfifo = 0\n", &[]);
+        assert!(fifo.starts_with("c.toml:2:8: block.stitch.fifo: found 0, expected 1..=65536;"));
         assert!(message("", &["position.width=-1"]).contains("found -1, expected 8..=48"));
     }
 

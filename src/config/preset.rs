@@ -1,9 +1,9 @@
 //! Presets: the documented assumptions about one machine each. In goes a name, out a configuration.
 //!
-//! So far a preset says how the link packs bytes and how memory bursts. Clock rates, bandwidths and
-//! the cycle costs of the blocks come with the engines, which are the first to need them.
+//! A preset says how fast the clock, the link and the memory are, how link and memory pack bytes,
+//! and what the shaders cost. What the proposed blocks cost is the same in all of them.
 
-use super::{Config, Link, Memory};
+use super::{Blocks, Config, Link, Memory};
 
 /// A machine whose numbers are assumed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,7 +56,57 @@ impl Preset {
             // the sum is the same). GDDR6: a 16-bit channel, bursts of 16.
             Self::Modern => (Link { payload: 256, header: 24 }, 32),
         };
-        Config { link, memory: Memory { burst }, ..Config::default() }
+        Config {
+            clock_mhz: self.clock_mhz(),
+            link,
+            memory: Memory { burst },
+            block: self.blocks(),
+            ..Config::default()
+        }
+    }
+
+    /// Core clocks as sold; what `modern` stands for boosts to about 2 GHz.
+    const fn clock_mhz(self) -> u32 {
+        match self {
+            Self::Gf3_2001 => 200,
+            Self::Hd5870 => 850,
+            Self::Hd6970 => 880,
+            Self::Modern => 2000,
+        }
+    }
+
+    /// The fixed-function blocks are the proposal and cost the same everywhere; what differs is
+    /// what stands around them: the shaders.
+    fn blocks(self) -> Blocks {
+        let mut blocks = Blocks::default();
+        match self {
+            // The vertex FIFO is as deep as the chip's cache of transformed vertices. One vertex a
+            // cycle is left as it is, so that the tessellator shows before the shader: the chip
+            // issued one vec4 instruction a clock, so the length of a program is its interval.
+            Self::Gf3_2001 => blocks.vertex_shader.fifo = 24,
+            // 20 SIMDs of 16 lanes.
+            Self::Hd5870 => shader_array(&mut blocks, 20 * 16),
+            // 24 SIMDs of 16 lanes.
+            Self::Hd6970 => shader_array(&mut blocks, 24 * 16),
+            // The shaders are a port to an array of cores that together outrun it: one vertex a
+            // cycle goes in and comes out, which is what a geometry front end hands over. Latency
+            // 200: a wave of 64 takes 64 cycles to gather, then some 34 dependent instructions of
+            // four cycles each (a wave of 64 on 16 lanes).
+            Self::Modern => {}
+        }
+        blocks
+    }
+}
+
+/// A unified shader array, given whole to each of the two shaders: they do not compete, which
+/// flatters a run in which both are busy. A lane (VLIW of 5 or 4) issues an instruction word a
+/// cycle; a program of 20 words is assumed, and 200 cycles for it with its waits, hidden by the 11
+/// threads that a lane then holds.
+fn shader_array(blocks: &mut Blocks, lanes: u32) {
+    for shader in [&mut blocks.transform, &mut blocks.vertex_shader] {
+        shader.lanes = lanes;
+        shader.interval = 20;
+        shader.latency = 200;
     }
 }
 
@@ -72,5 +122,15 @@ mod tests {
         }
         assert_eq!(Preset::default().config(), Config::default());
         assert_eq!(Preset::named("gf3"), None);
+    }
+
+    #[test]
+    fn a_lane_of_a_shader_array_hides_its_latency() {
+        for (preset, lanes) in [(Preset::Hd5870, 320), (Preset::Hd6970, 384)] {
+            let config = preset.config();
+            let costs = config.costs(rtl_model::counter::Block::VertexShader).unwrap();
+            assert_eq!((costs.lanes, costs.in_flight()), (lanes, 11));
+            assert!(costs.in_flight() * costs.interval > costs.latency);
+        }
     }
 }
