@@ -9,12 +9,14 @@ pub mod block;
 pub mod check;
 pub mod keys;
 pub mod layers;
+pub mod link;
 pub mod preset;
 pub mod print;
 
 use serde::{Deserialize, Serialize};
 
 pub use block::{BackfaceCosts, BlockCosts, Blocks, EvaluateCosts};
+pub use link::{Bus, Channels, Link, Memory, TransferMode};
 pub use rtl_model::backface::Method as BackfaceMethod;
 pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::number::{Overflow, Rounding};
@@ -218,24 +220,6 @@ pub struct VertexShader {
     pub to_memory: bool,
 }
 
-/// The link from the host.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Link {
-    /// Largest payload of a packet in bytes; 0: the link is not packetised.
-    pub payload: u32,
-    /// Framing of a packet in bytes.
-    pub header: u32,
-}
-
-/// Device memory.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Memory {
-    /// Bytes of a burst.
-    pub burst: u32,
-}
-
 /// Unit `triangles`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -319,18 +303,6 @@ impl Default for VertexShader {
     }
 }
 
-impl Default for Link {
-    fn default() -> Self {
-        Self { payload: 256, header: 24 }
-    }
-}
-
-impl Default for Memory {
-    fn default() -> Self {
-        Self { burst: 32 }
-    }
-}
-
 impl Default for Triangles {
     fn default() -> Self {
         Self { vertex_bytes: 32 }
@@ -347,12 +319,14 @@ impl Config {
     }
 
     /// The same configuration with what it leaves to be derived from itself written out:
-    /// `evaluate.guard`, and `level.criterion` where only its number was given.
+    /// `evaluate.guard`, and `level.criterion` where only its number was given. A bus whose numbers
+    /// were changed is named no more.
     #[must_use]
     pub fn effective(&self) -> Self {
         let mut effective = self.clone();
         effective.evaluate.guard = Some(self.guard());
         effective.level.criterion = self.level.chosen();
+        effective.link.bus = self.link.bus();
         effective
     }
 }

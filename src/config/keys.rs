@@ -19,6 +19,12 @@ pub struct Key {
     pub absent: Option<(&'static str, &'static str)>,
 }
 
+const BUSES: &str = "agp1x, agp2x, agp4x, agp8x or pcie4x16 (or another generation of 1 to 6 and \
+                     1, 2, 4, 8 or 16 lanes)";
+const BANDWIDTH: &str = "1..=10000000";
+const CYCLES: &str = "0..=1000000";
+const FIFO: &str =
+    "1..=65536; at 0 nothing could ever move, and 1 halves throughput: credit is a cycle late";
 const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 
 /// All keys, in the order of the file: tables after plain keys, in the order of the data.
@@ -102,13 +108,58 @@ const PLAIN: &[Key] = &[
         "also write shaded vertices to device memory (stream output)",
         "true or false",
     ),
+    optional(
+        "link.bus",
+        "a bus by its name: sets the bandwidths, payload, header, request and completion that no \
+         key beside it sets",
+        BUSES,
+        ("\"pcie4x16\"", "the numbers below are no named bus's"),
+    ),
+    key("link.bandwidth_mb_s", "bandwidth towards the device, 10^6 bytes a second", BANDWIDTH),
+    key(
+        "link.upstream_mb_s",
+        "bandwidth towards the host, which carries read requests, 10^6 bytes a second",
+        BANDWIDTH,
+    ),
     key(
         "link.payload",
         "largest payload of a packet in bytes; 0: not packetised",
         "0..=65536; 0 only with header 0",
     ),
     key("link.header", "framing of a packet in bytes", "0..=65536; 0 where payload is 0"),
+    key(
+        "link.transfer",
+        "who moves the data: the host writes, or the device reads the host's memory",
+        "push or pull",
+    ),
+    key("link.request", "most bytes that one read asks for (pull)", "1..=65536"),
+    key("link.request_header", "bytes of a read request, upstream (pull)", "0..=65536"),
+    key(
+        "link.completion",
+        "most bytes that one completion of a read brings; 0: not packetised (pull)",
+        "0..=65536; 0 only with completion_header 0",
+    ),
+    key(
+        "link.completion_header",
+        "framing of a completion in bytes (pull)",
+        "0..=65536; 0 where completion is 0",
+    ),
+    key(
+        "link.latency",
+        "cycles from a read request to its data (pull); 500 ns are assumed",
+        CYCLES,
+    ),
+    key("link.outstanding", "read requests under way at once (pull)", "1..=65536"),
     key("memory.burst", "bytes of a memory burst", "1..=65536"),
+    key("memory.bandwidth_mb_s", "bandwidth of a channel, 10^6 bytes a second", BANDWIDTH),
+    key("memory.latency", "cycles from a read to its data; 200 ns are assumed", CYCLES),
+    key("memory.outstanding", "reads of a burst each under way at once", "1..=65536"),
+    key(
+        "memory.channels",
+        "whether reads and writes have a channel each, or the stages take turns at one",
+        "separate or shared",
+    ),
+    key("memory.fifo", "entries of the FIFO before memory: commands", FIFO),
     key("triangles.vertex_bytes", "bytes of a vertex on the link, unit triangles", "1..=65536"),
 ];
 

@@ -3,7 +3,7 @@
 //! A preset says how fast the clock, the link and the memory are, how link and memory pack bytes,
 //! and what the shaders cost. What the proposed blocks cost is the same in all of them.
 
-use super::{Blocks, Config, Link, Memory};
+use super::{Blocks, Bus, Config, Link, Memory};
 
 /// A machine whose numbers are assumed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,26 +43,41 @@ impl Preset {
     /// Its configuration.
     #[must_use]
     pub fn config(self) -> Config {
-        let (link, burst) = match self {
-            // AGP moves data in bursts of quadwords without packets or framing (AGP 2.0, sec. 3).
-            // 16 bytes is assumed: a crossbar of four 32-bit DDR channels, bursts of 4.
-            Self::Gf3_2001 => (Link { payload: 0, header: 0 }, 16),
-            // PCIe 2: root ports of the time settled on a 128-byte maximum payload. Header of a
-            // write with a 64-bit address 16, sequence number and LCRC 6, framing
-            // symbols 2. GDDR5: a 32-bit channel, bursts of 8.
-            Self::Hd5870 | Self::Hd6970 => (Link { payload: 128, header: 24 }, 32),
-            // PCIe 4: 256 bytes is what hosts offer; the transaction is framed as above (at
-            // 128b/130b the framing token takes 4 bytes with the sequence number, and
-            // the sum is the same). GDDR6: a 16-bit channel, bursts of 16.
-            Self::Modern => (Link { payload: 256, header: 24 }, 32),
-        };
         Config {
             clock_mhz: self.clock_mhz(),
-            link,
-            memory: Memory { burst },
+            link: Link::of(self.bus(), self.clock_mhz()),
+            memory: self.memory(),
             block: self.blocks(),
             ..Config::default()
         }
+    }
+
+    /// The bus of its time; what a bus stands for, with reasons, says [`Link::take`].
+    const fn bus(self) -> Bus {
+        match self {
+            Self::Gf3_2001 => Bus::AGP4X,
+            Self::Hd5870 | Self::Hd6970 => Bus::PCIE2X16,
+            Self::Modern => Bus::PCIE4X16,
+        }
+    }
+
+    /// Bandwidths as sold: width x rate. A read takes 200 ns at every age: DRAM arrays have hardly
+    /// become faster, and what controllers gained, caches and queues took. Reads under way: the
+    /// power of two that covers bandwidth x latency.
+    fn memory(self) -> Memory {
+        let (bandwidth_mb_s, burst, outstanding) = match self {
+            // 128 bits x 460 MHz. 16 bytes is assumed: a crossbar of four 32-bit DDR channels,
+            // bursts of 4.
+            Self::Gf3_2001 => (7_360, 16, 128),
+            // 256 bits x 4.8 Gb/s. GDDR5: a 32-bit channel, bursts of 8.
+            Self::Hd5870 => (153_600, 32, 1024),
+            // 256 bits x 5.5 Gb/s.
+            Self::Hd6970 => (176_000, 32, 2048),
+            // 256 bits x 14 Gb/s. GDDR6: a 16-bit channel, bursts of 16.
+            Self::Modern => (448_000, 32, 4096),
+        };
+        let latency = self.clock_mhz() / 5;
+        Memory { burst, bandwidth_mb_s, latency, outstanding, ..Memory::default() }
     }
 
     /// Core clocks as sold; what `modern` stands for boosts to about 2 GHz.
@@ -122,6 +137,23 @@ mod tests {
         }
         assert_eq!(Preset::default().config(), Config::default());
         assert_eq!(Preset::named("gf3"), None);
+    }
+
+    #[test]
+    fn reads_under_way_cover_the_latency_and_are_not_many_more() {
+        for preset in Preset::ALL {
+            let Config { clock_mhz, link, memory, .. } = preset.config();
+            // Bytes that the wire moves during the latency: MB/s x cycles / MHz.
+            let moved = |mb_s: u32, latency: u32| {
+                u64::from(mb_s) * u64::from(latency) / u64::from(clock_mhz)
+            };
+            let link_bytes = u64::from(link.outstanding) * u64::from(link.request);
+            let link_moved = moved(link.bandwidth_mb_s, link.latency);
+            assert!(link_moved <= link_bytes && link_bytes < 5 * link_moved, "{preset:?}");
+            let memory_bytes = u64::from(memory.outstanding) * u64::from(memory.burst);
+            let memory_moved = moved(memory.bandwidth_mb_s, memory.latency);
+            assert!(memory_moved <= memory_bytes && memory_bytes < 2 * memory_moved, "{preset:?}");
+        }
     }
 
     #[test]

@@ -51,7 +51,7 @@ mod tests {
     use super::*;
     use crate::config::layers::Layers;
     use crate::config::preset::Preset;
-    use crate::config::{Criterion, Engine, Frames, LaneOrder};
+    use crate::config::{Bus, Channels, Criterion, Engine, Frames, LaneOrder, TransferMode};
 
     fn reread(text: &str) -> Config {
         // Over another preset: every key that matters must be in the text.
@@ -70,6 +70,8 @@ mod tests {
         config.position.clip_range_log2 = Some(-3);
         config.evaluate.guard = Some(7);
         config.engine = Engine::Stepped;
+        config.link.transfer = TransferMode::Pull;
+        config.memory.channels = Channels::Shared;
         config.frames = Frames::Overlap;
         config.block.clip.in_flight = Some(9);
         config.block.backface.latency = Some(7);
@@ -77,6 +79,12 @@ mod tests {
         config.block.evaluate.costs.lanes = 2;
         config.block.emit.lane_order = LaneOrder::RoundRobin;
         assert_eq!(reread(&config.to_commented_toml()), config);
+        for bus in Bus::all() {
+            config.link.take(bus);
+            assert_eq!(reread(&config.to_commented_toml()), config);
+            config.link.request = 100;
+            assert_eq!(reread(&config.to_commented_toml()), config.effective());
+        }
     }
 
     #[test]

@@ -1,12 +1,9 @@
 //! The keys `block.NAME.*`, six a block: what they mean, and the reason for the default.
 
-use super::{Key, key, optional};
+use super::{CYCLES, FIFO, Key, key, optional};
 
 const INTERVAL: &str = "1..=1000000";
-const LATENCY: &str = "0..=1000000";
 const ENTRIES: &str = "1..=65536";
-const FIFO: &str =
-    "1..=65536; at 0 nothing could ever move, and 1 halves throughput: credit is a cycle late";
 const IN_FLIGHT: &str = "floor(latency / interval) + 1, which hides the latency";
 const ORDERS: &str = "first_free or round_robin";
 
@@ -30,7 +27,7 @@ macro_rules! keys {
             perhaps(
                 concat!("block.", $block, ".latency"),
                 concat!("cycles from a work item's acceptance to its result; ", $latency),
-                LATENCY,
+                CYCLES,
                 &[$($no_latency)?],
             ),
             optional(
@@ -122,7 +119,7 @@ pub(super) const KEYS: &[Key] = keys! {
             "block.evaluate.setup",
             "cycles to set up a curve's differences, its two half-runs together, while the curve \
              before runs: a change of basis by shifts and additions, and three powers of the step",
-            LATENCY,
+            CYCLES,
         )
     }
     "stitch" {
