@@ -5,17 +5,22 @@
 //! which prints itself as commented TOML that reads back as the same configuration ([`mod@print`]).
 //! Threads are no part of it: any number of them gives the same bytes.
 
+pub mod block;
 pub mod check;
 pub mod keys;
 pub mod layers;
+pub mod link;
 pub mod preset;
 pub mod print;
 
 use serde::{Deserialize, Serialize};
 
+pub use block::{BackfaceCosts, BlockCosts, Blocks, EvaluateCosts};
+pub use link::{Bus, Channels, Link, Memory, TransferMode};
 pub use rtl_model::backface::Method as BackfaceMethod;
 pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::number::{Overflow, Rounding};
+pub use rtl_model::time::{Frames, LaneOrder};
 
 /// Widest position format.
 pub const WIDTH_MAX: u32 = 48;
@@ -35,19 +40,48 @@ pub enum Unit {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
-    /// Function only: no cycles.
+    /// Visits each token once.
     #[default]
+    Timed,
+    /// Goes cycle by cycle: slow, and what makes the other believable.
+    Stepped,
+    /// Function only: no cycles.
     None,
 }
 
+impl Engine {
+    /// All of them, the default first.
+    pub const ALL: [Self; 3] = [Self::Timed, Self::Stepped, Self::None];
+
+    /// The name in configurations and reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Timed => "timed",
+            Self::Stepped => "stepped",
+            Self::None => "none",
+        }
+    }
+
+    /// The engine of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|engine| engine.name() == name)
+    }
+}
+
 /// The effective configuration of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// The unit.
     pub unit: Unit,
     /// The engine.
     pub engine: Engine,
+    /// The clock of unit, link and memory in MHz, 1..=100000.
+    pub clock_mhz: u32,
+    /// What becomes of the pipeline between frames.
+    pub frames: Frames,
     /// Positions behind the port.
     pub position: Position,
     /// Levels.
@@ -68,6 +102,8 @@ pub struct Config {
     pub memory: Memory,
     /// Unit `triangles`.
     pub triangles: Triangles,
+    /// What the blocks cost in time.
+    pub block: Blocks,
 }
 
 /// The position format and the port that makes it.
@@ -180,24 +216,8 @@ pub struct VertexShader {
     pub bytes_in_normal: u32,
     /// Bytes written a vertex: position 16, colour 16.
     pub bytes_out: u32,
-}
-
-/// The link from the host.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Link {
-    /// Largest payload of a packet in bytes; 0: the link is not packetised.
-    pub payload: u32,
-    /// Framing of a packet in bytes.
-    pub header: u32,
-}
-
-/// Device memory.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Memory {
-    /// Bytes of a burst.
-    pub burst: u32,
+    /// Whether shaded vertices are also written to device memory (stream output).
+    pub to_memory: bool,
 }
 
 /// Unit `triangles`.
@@ -206,6 +226,29 @@ pub struct Memory {
 pub struct Triangles {
     /// Bytes of a vertex on the link: position 12, normal 12, texture coordinates 8.
     pub vertex_bytes: u32,
+}
+
+impl Default for Config {
+    /// The preset `modern`.
+    fn default() -> Self {
+        Self {
+            unit: Unit::default(),
+            engine: Engine::default(),
+            clock_mhz: 2000,
+            frames: Frames::default(),
+            position: Position::default(),
+            level: Level::default(),
+            clip: Clip::default(),
+            backface: Backface::default(),
+            evaluate: Evaluate::default(),
+            emit: Emit::default(),
+            vertex_shader: VertexShader::default(),
+            link: Link::default(),
+            memory: Memory::default(),
+            triangles: Triangles::default(),
+            block: Blocks::default(),
+        }
+    }
 }
 
 impl Default for Position {
@@ -256,19 +299,7 @@ impl Default for Emit {
 
 impl Default for VertexShader {
     fn default() -> Self {
-        Self { bytes_in: 24, bytes_in_normal: 16, bytes_out: 32 }
-    }
-}
-
-impl Default for Link {
-    fn default() -> Self {
-        Self { payload: 256, header: 24 }
-    }
-}
-
-impl Default for Memory {
-    fn default() -> Self {
-        Self { burst: 32 }
+        Self { bytes_in: 24, bytes_in_normal: 16, bytes_out: 32, to_memory: false }
     }
 }
 
@@ -288,12 +319,14 @@ impl Config {
     }
 
     /// The same configuration with what it leaves to be derived from itself written out:
-    /// `evaluate.guard`, and `level.criterion` where only its number was given.
+    /// `evaluate.guard`, and `level.criterion` where only its number was given. A bus whose numbers
+    /// were changed is named no more.
     #[must_use]
     pub fn effective(&self) -> Self {
         let mut effective = self.clone();
         effective.evaluate.guard = Some(self.guard());
         effective.level.criterion = self.level.chosen();
+        effective.link.bus = self.link.bus();
         effective
     }
 }

@@ -167,9 +167,7 @@ fn wrong_usage_is_exit_2_and_says_what_would_be_right() {
     assert!(set("positon.width=24").contains("did you mean `position.width`?"));
     assert!(set("position.width=99").contains("found 99, expected 8..=48"));
     assert!(set("level.pixels=0").contains("level.pixels: found 0"));
-    for engine in ["timed", "stepped"] {
-        assert!(fails(2, &["run", teapot, "--engine", engine]).contains("do not exist yet"));
-    }
+    assert!(fails(2, &["run", teapot, "--engine", "fast"]).contains("[possible values: timed"));
     tessim().args(["run", teapot, "--engine", "none", "-q"]).assert().success();
     for wrong in [&["run"][..], &["rum"], &[], &["run", teapot, "--threads", "0"]] {
         fails(2, wrong);
@@ -177,6 +175,29 @@ fn wrong_usage_is_exit_2_and_says_what_would_be_right() {
     assert!(fails(2, &["run", teapot, "--unit", "voodoo"]).contains("hybrid"));
     tessim().args(["--help"]).assert().success();
     tessim().args(["--version"]).assert().success();
+}
+
+#[test]
+fn a_time_that_cannot_be_is_refused_by_its_key() {
+    let cases: [(&str, &[&str]); 10] = [
+        ("clock_mhz=0", &["clock_mhz: found 0, expected 1..=100000"]),
+        ("engine=fast", &["engine: found \"fast\", expected timed, stepped or none"]),
+        ("block.stitch.fifo=0", &["block.stitch.fifo: found 0", "nothing could ever move"]),
+        ("block.emit.lanes=0", &["block.emit.lanes: found 0, expected 1..=4096"]),
+        ("block.level.latency=1000001", &["block.level.latency: found 1000001"]),
+        ("block.clip.interval=99999999999", &["block.clip.interval: found 99999999999"]),
+        ("block.backfcae.latency=1", &["unknown key", "did you mean `block.backface.latency`?"]),
+        ("link.bus=pcie3x61", &["link.bus: found \"pcie3x61\"", "did you mean `pcie3x1`?"]),
+        ("link.transfer=pulled", &["link.transfer: found \"pulled\", expected push or pull"]),
+        ("memory.fifo=0", &["memory.fifo: found 0", "nothing could ever move"]),
+    ];
+    for (setting, wanted) in cases {
+        let message = fails(2, &["config", "--set", setting]);
+        assert!(message.starts_with(&format!("--set {setting}: ")), "{message}");
+        for words in wanted {
+            assert!(message.contains(words), "`{words}` is not in: {message}");
+        }
+    }
 }
 
 #[test]
@@ -200,7 +221,10 @@ fn config_prints_the_layers_that_were_laid() {
     };
     assert!(printed(&[]).contains("\npayload = 256\n"));
     let old = printed(&["--preset", "gf3-2001", "--unit", "triangles", "--set", "level.level=8"]);
+    assert!(old.contains("\nbus = \"agp4x\"\n") && old.contains("\nclock_mhz = 200\n"));
     assert!(old.contains("\npayload = 0\n") && old.contains("unit = \"triangles\""));
+    let other = printed(&["--set", "link.payload=64"]);
+    assert!(other.contains("\n# bus = ") && other.contains("\n[block.vertex_shader]\n"));
     assert!(old.contains("criterion = \"fixed\"") && old.contains("\nlevel = 8.0\n"));
 }
 

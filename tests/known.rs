@@ -13,7 +13,7 @@ use rtl_model::counter::Counter as C;
 use rtl_model::counter::Counters;
 use std::io::BufReader;
 use std::path::Path;
-use tessim::config::{BackfaceMethod, Config, Normals, Scheme, Unit};
+use tessim::config::{BackfaceMethod, Config, Normals, Scheme, TransferMode, Unit};
 use tessim::error::Result;
 use tessim::output;
 use tessim::report::Report;
@@ -75,6 +75,20 @@ fn a_teapot_at_level_8_is_what_arithmetic_says() {
     // The host would send a frame, and a draw of 2592 vertices of 32 bytes and 12288 short indices.
     let draw: u64 = 8 + 2592 * 32 + 12288 * 2;
     assert_eq!(report.host_link_bytes, (8 + 128 + 24) + draw + draw.div_ceil(256) * 24);
+}
+
+#[test]
+fn a_pulled_teapot_is_asked_for_and_completed() {
+    let mut config = Config::default();
+    config.link.transfer = TransferMode::Pull;
+    let totals = run_text(&fixed("teapot", "8"), &config).expect("a teapot").totals();
+    // 6152 bytes of points: 13 reads of up to 512, 49 completions of up to 128. The frame's 136
+    // bytes: one read, two completions. Tessellation and draw: one of each.
+    assert_eq!(totals.get(C::LinkRequests), (13 + 1 + 2) * 24);
+    assert_eq!(totals.get(C::LinkOverhead), (49 + 2 + 2) * 20);
+    let pushed = run_text(&fixed("teapot", "8"), &Config::default()).expect("a teapot").totals();
+    assert_eq!(pushed.get(C::LinkRequests), 0);
+    assert_eq!(totals.get(C::LinkControlPoints), pushed.get(C::LinkControlPoints));
 }
 
 #[test]
@@ -159,7 +173,7 @@ fn laws(c: &Counters, config: &Config) {
     let emit = u64::from(config.emit.vertex_bytes) * get(C::EmitVertices)
         + 3 * u64::from(config.emit.index_bytes) * get(C::EmitTriangles);
     let equal = [
-        (get(C::LinkTotal), payload + get(C::LinkOverhead)),
+        (get(C::LinkTotal), payload + get(C::LinkOverhead) + get(C::LinkRequests)),
         (get(C::MemoryBursts) * burst, moved + get(C::MemoryWasted)),
         (get(C::TransformInvocations), get(C::PortPoints)),
         (get(C::TransformInvocations), get(C::AssembleReceived)),
@@ -217,6 +231,7 @@ fn counters_conserve_what_flows_under_every_configuration() {
         config.evaluate.scheme = random.of([Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
         config.evaluate.normals = random.of([Normals::Off, Normals::TangentPlane]);
         config.link.payload = random.of([128, 256]);
+        config.link.transfer = random.of([TransferMode::Push, TransferMode::Pull]);
         config.memory.burst = random.of([16, 32, 64]);
         config.level.max_level = random.of([None, Some(4.0)]);
         for name in SHIPPED {

@@ -137,8 +137,9 @@ counters! {
         LinkControlPoints "bytes.control_points" Bytes "control points, 12 bytes (xyz) or 16 (xyzw), where their command stands", "";
         LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`)", "";
         LinkIndices "bytes.indices" Bytes "triangle indices (unit `triangles`), 2 bytes, or 4 where a draw has more than 65536 vertices", "";
-        LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload", "";
-        LinkTotal "bytes.total" Bytes "all bytes that crossed the link", "= sum of the other link bytes";
+        LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload; under pull for each completion of its reads", "";
+        LinkRequests "bytes.requests" Bytes "read requests, upstream: one for each started `link.request` bytes of a command under pull; 0 under push", "";
+        LinkTotal "bytes.total" Bytes "all bytes that crossed the link, in both directions", "= sum of the other link bytes";
     }
     Memory {
         MemoryReadControlPoints "bytes.read.control_points" Bytes "resident control points, read by each instance of each draw that uses them", "";

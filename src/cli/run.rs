@@ -4,11 +4,12 @@
 use super::config::Layered;
 use super::print;
 use super::progress::Progress;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::iter;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use tessim::config::Config;
+use tessim::config::{Config, Engine};
 use tessim::error::{Error, Result};
 use tessim::output::folder::ResultFolder;
 use tessim::output::mesh::{MeshFile, MeshForm};
@@ -31,9 +32,9 @@ pub(crate) struct Args {
     trace: PathBuf,
     #[command(flatten)]
     layered: Layered,
-    /// What lays time over the blocks [default: none, the only one so far]
-    #[arg(long, value_name = "E", value_parser = ["timed", "stepped", "none"])]
-    engine: Option<String>,
+    /// What lays time over the blocks; over all layers [default: timed]
+    #[arg(long, value_name = "E", value_parser = engines())]
+    engine: Option<Engine>,
     /// Threads, any number of which give the same bytes [default: all cores]
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -46,6 +47,11 @@ pub(crate) struct Args {
     /// Write the results into this folder; one that exists is replaced only if a run wrote it
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+}
+
+fn engines() -> impl TypedValueParser<Value = Engine> {
+    PossibleValuesParser::new(Engine::ALL.map(Engine::name))
+        .map(|name| Engine::named(&name).expect("only names of engines are possible values"))
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -69,8 +75,9 @@ impl From<Form> for MeshForm {
 }
 
 pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
-    args.refuse_what_does_not_exist()?;
-    let config = args.layered.configuration()?;
+    args.refuse_a_mesh_without_a_folder()?;
+    let mut config = args.layered.configuration()?;
+    config.engine = args.engine.unwrap_or(config.engine);
     let pool = pool(args.threads)?;
     let reader = Reader::open(&args.trace)?;
     let folder = args.out.as_deref().map(ResultFolder::create).transpose()?;
@@ -89,13 +96,7 @@ struct Results {
 }
 
 impl Args {
-    fn refuse_what_does_not_exist(&self) -> Result<()> {
-        if let Some(engine @ ("timed" | "stepped")) = self.engine.as_deref() {
-            return Err(Error::Usage(format!(
-                "--engine {engine}: the engines do not exist yet; only `none` does, which counts \
-                 everything but cycles"
-            )));
-        }
+    fn refuse_a_mesh_without_a_folder(&self) -> Result<()> {
         if self.mesh.is_some() && self.out.is_none() {
             return Err(Error::Usage(
                 "--mesh writes into the result folder: give --out DIR too".to_owned(),

@@ -2,6 +2,8 @@
 //! what keys demand of each other. Each failure names the key, what was found and what was
 //! expected.
 
+use super::block::{CYCLES_MAX, ENTRIES_MAX, LANES_MAX, TIMED};
+use super::link::BANDWIDTH_MAX;
 use super::{Config, Criterion, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
 use std::fmt::Display;
@@ -41,7 +43,10 @@ impl Config {
     pub(super) fn problem(&self) -> Result<(), Problem> {
         self.formats()?;
         self.levels()?;
-        self.sizes()
+        self.sizes()?;
+        self.host_link()?;
+        self.device_memory()?;
+        self.times()
     }
 
     fn formats(&self) -> Result<(), Problem> {
@@ -100,16 +105,63 @@ impl Config {
         within("vertex_shader.bytes_in", self.vertex_shader.bytes_in, 0, most)?;
         within("vertex_shader.bytes_in_normal", self.vertex_shader.bytes_in_normal, 0, most)?;
         within("vertex_shader.bytes_out", self.vertex_shader.bytes_out, 0, most)?;
-        within("link.payload", self.link.payload, 0, most)?;
-        within("link.header", self.link.header, 0, most)?;
-        if self.link.payload == 0 && self.link.header != 0 {
-            return Err(Problem::found(
-                "link.header",
-                format!("{} with payload 0", self.link.header),
-            ));
-        }
-        within("memory.burst", self.memory.burst, 1, most)?;
         within("triangles.vertex_bytes", self.triangles.vertex_bytes, 1, most)
+    }
+}
+
+impl Config {
+    fn host_link(&self) -> Result<(), Problem> {
+        let (link, most) = (&self.link, 65536);
+        within("link.bandwidth_mb_s", link.bandwidth_mb_s, 1, BANDWIDTH_MAX)?;
+        within("link.upstream_mb_s", link.upstream_mb_s, 1, BANDWIDTH_MAX)?;
+        within("link.payload", link.payload, 0, most)?;
+        within("link.header", link.header, 0, most)?;
+        if link.payload == 0 && link.header != 0 {
+            let found = format!("{} with payload 0", link.header);
+            return Err(Problem::found("link.header", found));
+        }
+        within("link.request", link.request, 1, most)?;
+        within("link.request_header", link.request_header, 0, most)?;
+        within("link.completion", link.completion, 0, most)?;
+        within("link.completion_header", link.completion_header, 0, most)?;
+        if link.completion == 0 && link.completion_header != 0 {
+            let found = format!("{} with completion 0", link.completion_header);
+            return Err(Problem::found("link.completion_header", found));
+        }
+        within("link.latency", link.latency, 0, CYCLES_MAX)?;
+        within("link.outstanding", link.outstanding, 1, ENTRIES_MAX)
+    }
+
+    fn device_memory(&self) -> Result<(), Problem> {
+        let memory = &self.memory;
+        within("memory.burst", memory.burst, 1, 65536)?;
+        within("memory.bandwidth_mb_s", memory.bandwidth_mb_s, 1, BANDWIDTH_MAX)?;
+        within("memory.latency", memory.latency, 0, CYCLES_MAX)?;
+        within("memory.outstanding", memory.outstanding, 1, ENTRIES_MAX)?;
+        within("memory.fifo", memory.fifo, 1, ENTRIES_MAX)
+    }
+
+    fn times(&self) -> Result<(), Problem> {
+        within("clock_mhz", self.clock_mhz, 1, 100_000)?;
+        for block in TIMED {
+            let costs = self.costs(block).expect("a block that takes time has costs");
+            let key = |name: &str| {
+                let path = format!("block.{}.{name}", block.name());
+                keys::find(&path).expect("the table has the keys of every block").path
+            };
+            within(key("interval"), costs.interval, 1, CYCLES_MAX)?;
+            within(key("latency"), costs.latency, 0, CYCLES_MAX)?;
+            within(key("lanes"), costs.lanes, 1, LANES_MAX)?;
+            within(key("fifo"), costs.fifo, 1, ENTRIES_MAX)?;
+            if let Some(tokens) = costs.in_flight {
+                within(key("in_flight"), tokens, 1, ENTRIES_MAX)?;
+            }
+        }
+        // Written by hand they are checked even under `off`, where no patch takes them.
+        let backface = &self.block.backface;
+        within("block.backface.interval", backface.interval.unwrap_or(1), 1, CYCLES_MAX)?;
+        within("block.backface.latency", backface.latency.unwrap_or(0), 0, CYCLES_MAX)?;
+        within("block.evaluate.setup", self.block.evaluate.setup, 0, CYCLES_MAX)
     }
 }
 
@@ -141,6 +193,7 @@ fn number(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::BackfaceMethod;
 
     fn refused(key: &str, change: impl FnOnce(&mut Config)) {
         let mut config = Config::default();
@@ -166,7 +219,35 @@ mod tests {
         refused("level.max_level", |c| c.level.max_level = Some(129.0));
         refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
         refused("link.header", |c| c.link.payload = 0);
+        refused("link.bandwidth_mb_s", |c| c.link.bandwidth_mb_s = 0);
+        refused("link.upstream_mb_s", |c| c.link.upstream_mb_s = 10_000_001);
+        refused("link.request", |c| c.link.request = 0);
+        refused("link.request_header", |c| c.link.request_header = 65537);
+        refused("link.completion", |c| c.link.completion = 65537);
+        refused("link.completion_header", |c| c.link.completion = 0);
+        refused("link.latency", |c| c.link.latency = 1_000_001);
+        refused("link.outstanding", |c| c.link.outstanding = 0);
         refused("memory.burst", |c| c.memory.burst = 0);
+        refused("memory.bandwidth_mb_s", |c| c.memory.bandwidth_mb_s = 0);
+        refused("memory.latency", |c| c.memory.latency = u32::MAX);
+        refused("memory.outstanding", |c| c.memory.outstanding = 0);
+        refused("memory.fifo", |c| c.memory.fifo = 0);
+        refused("clock_mhz", |c| c.clock_mhz = 0);
+        refused("clock_mhz", |c| c.clock_mhz = 100_001);
+        refused("block.clip.interval", |c| c.block.clip.interval = 0);
+        refused("block.level.latency", |c| c.block.level.latency = 1_000_001);
+        refused("block.backface.interval", |c| c.block.backface.interval = Some(u32::MAX));
+        refused("block.backface.latency", |c| c.block.backface.latency = Some(u32::MAX));
+        refused("block.backface.interval", |c| {
+            c.backface.method = BackfaceMethod::Off;
+            c.block.backface.interval = Some(0);
+        });
+        refused("block.emit.lanes", |c| c.block.emit.lanes = 0);
+        refused("block.emit.lanes", |c| c.block.emit.lanes = 4097);
+        refused("block.stitch.fifo", |c| c.block.stitch.fifo = 0);
+        refused("block.stitch.fifo", |c| c.block.stitch.fifo = 65537);
+        refused("block.port.in_flight", |c| c.block.port.in_flight = Some(0));
+        refused("block.evaluate.setup", |c| c.block.evaluate.setup = 1_000_001);
         refused("level.min_level", |c| {
             c.level.min_level = Some(4.0);
             c.level.max_level = Some(3.0);

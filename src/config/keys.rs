@@ -4,6 +4,8 @@
 //! One table serves `--set`, the TOML reader, its messages and the commented print-out, so that
 //! none of them can know a key that the others do not. Tests hold it against the types.
 
+mod block;
+
 /// A key and what is to be said of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
@@ -17,12 +19,22 @@ pub struct Key {
     pub absent: Option<(&'static str, &'static str)>,
 }
 
+const BUSES: &str = "agp1x, agp2x, agp4x, agp8x or pcie4x16 (or another generation of 1 to 6 and \
+                     1, 2, 4, 8 or 16 lanes)";
+const BANDWIDTH: &str = "1..=10000000";
+const CYCLES: &str = "0..=1000000";
+const FIFO: &str =
+    "1..=65536; at 0 nothing could ever move, and 1 halves throughput: credit is a cycle late";
 const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 
 /// All keys, in the order of the file: tables after plain keys, in the order of the data.
-pub const KEYS: &[Key] = &[
+pub const KEYS: &[Key] = &join::<{ PLAIN.len() + block::KEYS.len() }>(PLAIN, block::KEYS);
+
+const PLAIN: &[Key] = &[
     key("unit", "the unit that runs", "hybrid or triangles"),
-    key("engine", "what lays time over the blocks", "none (timed and stepped do not exist yet)"),
+    key("engine", "what lays time over the blocks", "timed, stepped or none"),
+    key("clock_mhz", "the clock in MHz; every number of cycles is one of this clock", "1..=100000"),
+    key("frames", "whether a frame waits until the one before has left", "drain or overlap"),
     key("position.width", "bits of a coordinate behind the port, with its sign", "8..=48"),
     key("position.rounding", "how the port rounds", ROUNDING),
     key(
@@ -92,12 +104,62 @@ pub const KEYS: &[Key] = &[
     key("vertex_shader.bytes_in_normal", "bytes read for a vertex's tangent plane", "0..=65536"),
     key("vertex_shader.bytes_out", "bytes written for a vertex", "0..=65536"),
     key(
+        "vertex_shader.to_memory",
+        "also write shaded vertices to device memory (stream output)",
+        "true or false",
+    ),
+    optional(
+        "link.bus",
+        "a bus by its name: sets the bandwidths, payload, header, request and completion that no \
+         key beside it sets",
+        BUSES,
+        ("\"pcie4x16\"", "the numbers below are no named bus's"),
+    ),
+    key("link.bandwidth_mb_s", "bandwidth towards the device, 10^6 bytes a second", BANDWIDTH),
+    key(
+        "link.upstream_mb_s",
+        "bandwidth towards the host, which carries read requests, 10^6 bytes a second",
+        BANDWIDTH,
+    ),
+    key(
         "link.payload",
         "largest payload of a packet in bytes; 0: not packetised",
         "0..=65536; 0 only with header 0",
     ),
     key("link.header", "framing of a packet in bytes", "0..=65536; 0 where payload is 0"),
+    key(
+        "link.transfer",
+        "who moves the data: the host writes, or the device reads the host's memory",
+        "push or pull",
+    ),
+    key("link.request", "most bytes that one read asks for (pull)", "1..=65536"),
+    key("link.request_header", "bytes of a read request, upstream (pull)", "0..=65536"),
+    key(
+        "link.completion",
+        "most bytes that one completion of a read brings; 0: not packetised (pull)",
+        "0..=65536; 0 only with completion_header 0",
+    ),
+    key(
+        "link.completion_header",
+        "framing of a completion in bytes (pull)",
+        "0..=65536; 0 where completion is 0",
+    ),
+    key(
+        "link.latency",
+        "cycles from a read request to its data (pull); 500 ns are assumed",
+        CYCLES,
+    ),
+    key("link.outstanding", "read requests under way at once (pull)", "1..=65536"),
     key("memory.burst", "bytes of a memory burst", "1..=65536"),
+    key("memory.bandwidth_mb_s", "bandwidth of a channel, 10^6 bytes a second", BANDWIDTH),
+    key("memory.latency", "cycles from a read to its data; 200 ns are assumed", CYCLES),
+    key("memory.outstanding", "reads of a burst each under way at once", "1..=65536"),
+    key(
+        "memory.channels",
+        "whether reads and writes have a channel each, or the stages take turns at one",
+        "separate or shared",
+    ),
+    key("memory.fifo", "entries of the FIFO before memory: commands", FIFO),
     key("triangles.vertex_bytes", "bytes of a vertex on the link, unit triangles", "1..=65536"),
 ];
 
@@ -112,6 +174,17 @@ const fn optional(
     absent: (&'static str, &'static str),
 ) -> Key {
     Key { path, meaning, expected, absent: Some(absent) }
+}
+
+const fn join<const N: usize>(first: &[Key], then: &[Key]) -> [Key; N] {
+    assert!(N == first.len() + then.len(), "the array holds both");
+    let mut keys = [first[0]; N];
+    let mut i = 1;
+    while i < N {
+        keys[i] = if i < first.len() { first[i] } else { then[i - first.len()] };
+        i += 1;
+    }
+    keys
 }
 
 /// The key at `path`.
@@ -160,14 +233,48 @@ mod tests {
             layers.set(&[format!("{}={value}", key.path)]).unwrap();
         }
         // Every key of the types is in the table: the default configuration prints no other.
-        let printed = toml::Table::try_from(Config::default()).unwrap();
-        for (name, value) in &printed {
-            match value {
-                toml::Value::Table(table) => {
-                    assert!(table.keys().all(|key| find(&format!("{name}.{key}")).is_some()));
-                }
-                _ => assert!(find(name).is_some()),
-            }
+        let printed = toml::Value::try_from(Config::default()).unwrap();
+        let mut paths = Vec::new();
+        leaves("", &printed, &mut paths);
+        for path in &paths {
+            assert!(find(path).is_some(), "{path}");
+        }
+        let optional = KEYS.iter().filter(|key| key.absent.is_some()).count();
+        assert!(paths.len() <= KEYS.len() && KEYS.len() - optional <= paths.len());
+    }
+
+    fn leaves(prefix: &str, value: &toml::Value, paths: &mut Vec<String>) {
+        let toml::Value::Table(table) = value else { return paths.push(prefix.to_owned()) };
+        for (name, value) in table {
+            let dot = if prefix.is_empty() { "" } else { "." };
+            leaves(&format!("{prefix}{dot}{name}"), value, paths);
+        }
+    }
+
+    #[test]
+    fn every_block_has_its_six_keys_and_evaluate_one_more() {
+        use crate::config::block::TIMED;
+        for block in TIMED {
+            let prefix = format!("block.{}.", block.name());
+            let keys = KEYS.iter().filter(|key| key.path.starts_with(&prefix)).count();
+            assert_eq!(keys, 6 + usize::from(prefix == "block.evaluate."), "{prefix}");
+        }
+        let blocks = KEYS.iter().filter(|key| key.path.starts_with("block.")).count();
+        assert_eq!(blocks, 6 * TIMED.len() + 1);
+    }
+
+    #[test]
+    fn an_example_of_what_a_block_leaves_absent_is_what_holds_by_default() {
+        let config = Config::default();
+        for block in crate::config::block::TIMED {
+            let costs = config.costs(block).unwrap();
+            let example = |name: &str| {
+                let key = find(&format!("block.{}.{name}", block.name())).unwrap();
+                key.absent.map(|(example, _)| example.parse::<u32>().unwrap())
+            };
+            assert_eq!(example("in_flight"), Some(costs.in_flight()), "{block:?}");
+            assert_eq!(example("interval").unwrap_or(costs.interval), costs.interval);
+            assert_eq!(example("latency").unwrap_or(costs.latency), costs.latency);
         }
     }
 
@@ -190,5 +297,9 @@ mod tests {
         assert_eq!(nearest("width"), "position.width");
         assert_eq!(nearest("level.pixel"), "level.pixels");
         assert_eq!(nearest("backface"), "backface.method");
+        assert_eq!(nearest("block.stich.fifo"), "block.stitch.fifo");
+        assert_eq!(nearest("block.evaluate.set_up"), "block.evaluate.setup");
+        assert_eq!(nearest("block.clip.in_fligth"), "block.clip.in_flight");
+        assert_eq!(nearest("clock"), "clock_mhz");
     }
 }

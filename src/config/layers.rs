@@ -5,7 +5,7 @@
 //! keys demand of each other is checked at the end, when the last layer has spoken.
 
 use super::preset::Preset;
-use super::{Config, keys};
+use super::{Config, keys, link};
 use crate::error::{Error, Place, Result};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -103,16 +103,24 @@ impl Layers {
     }
 
     /// One layer, its values applied one by one.
-    fn lay(&mut self, settings: Vec<(&'static keys::Key, Value, Origin)>) -> Result<()> {
+    fn lay(&mut self, mut settings: Vec<(&'static keys::Key, Value, Origin)>) -> Result<()> {
         let sets = |path: &str| settings.iter().any(|(key, _, _)| key.path == path);
         self.forget_other_criterion(&sets, &settings);
+        // A bus takes the place of the numbers of the layers below; those beside it win.
+        settings.sort_by_key(|(key, _, _)| key.path != "link.bus");
         for (key, value, origin) in settings {
             let found = snippet(&value.to_string());
             let mut table = Table::try_from(&self.config).expect("a configuration is plain data");
+            let hint = hint(key, &value);
             insert(&mut table, key.path, value);
             self.config = table.try_into().map_err(|_| {
-                origin.error(format!("{}: found {found}, expected {}", key.path, key.expected))
+                let expected = key.expected;
+                origin.error(format!("{}: found {found}, expected {expected}{hint}", key.path))
             })?;
+            if let Some(bus) = self.config.link.bus.filter(|_| key.path == "link.bus") {
+                self.config.link.take(bus);
+                self.origins.extend(link::OF_BUS.map(|path| (path, origin.clone())));
+            }
             self.origins.insert(key.path, origin);
         }
         Ok(())
@@ -176,6 +184,16 @@ fn known(path: &str) -> Result<&'static keys::Key, String> {
     })
 }
 
+/// What was probably meant, where the names are too many to be listed.
+fn hint(key: &keys::Key, value: &Value) -> String {
+    match value.as_str() {
+        Some(name) if key.path == "link.bus" => {
+            format!("; did you mean `{}`?", link::Bus::nearest(name))
+        }
+        _ => String::new(),
+    }
+}
+
 fn insert(table: &mut Table, path: &str, value: Value) {
     match path.split_once('.') {
         None => {
@@ -209,7 +227,7 @@ fn snippet(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{Criterion, Unit};
+    use crate::config::{Bus, Criterion, Unit};
 
     fn layered(file: &str, settings: &[&str]) -> Result<Config> {
         let mut layers = Layers::new(Preset::Modern);
@@ -251,7 +269,13 @@ mod tests {
         assert!(set.starts_with("--set backface.method=maybe: backface.method: found \"maybe\""));
         assert!(message("", &["emit.divides=true"]).contains("`emit.divide`"));
         assert!(message("", &["emit.divide"]).contains("key=value"));
-        assert!(message("", &["engine=timed"]).contains("do not exist yet"));
+        let engine = message("", &["engine=tmied"]);
+        assert!(engine.contains("found \"tmied\", expected timed, stepped or none"), "{engine}");
+        let block = message("[block.stitch]\n  fiof = 2\n", &[]);
+        assert!(block.starts_with("c.toml:2:3: unknown key `block.stitch.fiof`"), "{block}");
+        assert!(block.contains("`block.stitch.fifo`"), "{block}");
+        let fifo = message("[block.stitch]\nfifo = 0\n", &[]);
+        assert!(fifo.starts_with("c.toml:2:8: block.stitch.fifo: found 0, expected 1..=65536;"));
         assert!(message("", &["position.width=-1"]).contains("found -1, expected 8..=48"));
     }
 
@@ -266,5 +290,29 @@ mod tests {
         assert_eq!((flat.criterion, flat.level), (Some(Criterion::Flatness), None));
         assert!(layered(file, &["level.criterion=fixed"]).is_err());
         assert!(layered("", &["level.pixels=1", "level.level=2"]).is_err());
+    }
+
+    #[test]
+    fn a_bus_replaces_the_layers_below_and_yields_to_the_keys_beside_it() {
+        let file = "[link]\npayload = 64\nheader = 8\nlatency = 77\n";
+        let link = layered(file, &["link.bus=agp4x"]).unwrap().link;
+        assert_eq!((link.payload, link.header, link.bandwidth_mb_s), (0, 0, 1066));
+        assert_eq!((link.latency, link.bus), (77, Some(Bus::AGP4X)));
+        // In any order within a layer; and then the bus is none that has a name.
+        for settings in
+            [["link.bus=pcie2x16", "link.payload=64"], ["link.payload=64", "link.bus=pcie2x16"]]
+        {
+            let link = layered("", &settings).unwrap().link;
+            assert_eq!((link.payload, link.bandwidth_mb_s, link.bus), (64, 8000, None));
+        }
+        let above = layered("link.bus = \"pcie2x16\"\n", &["link.payload=64"]).unwrap().link;
+        assert_eq!((above.payload, above.bandwidth_mb_s, above.bus), (64, 8000, None));
+        let unknown = message("[link]\nbus = \"pci4x16\"\n", &[]);
+        assert!(unknown.starts_with("c.toml:2:7: link.bus: found \"pci4x16\", expected agp1x,"));
+        assert!(unknown.ends_with("did you mean `pcie4x16`?"), "{unknown}");
+        assert!(message("", &["link.bus=16"]).contains("link.bus: found 16, expected agp1x,"));
+        // What a bus set is blamed on the bus.
+        let blamed = message("[link]\nheader = 8\nbus = \"agp8x\"\n", &[]);
+        assert!(blamed.starts_with("c.toml:2:10: link.header: found 8 with payload 0"), "{blamed}");
     }
 }

@@ -1,9 +1,9 @@
 //! Presets: the documented assumptions about one machine each. In goes a name, out a configuration.
 //!
-//! So far a preset says how the link packs bytes and how memory bursts. Clock rates, bandwidths and
-//! the cycle costs of the blocks come with the engines, which are the first to need them.
+//! A preset says how fast the clock, the link and the memory are, how link and memory pack bytes,
+//! and what the shaders cost. What the proposed blocks cost is the same in all of them.
 
-use super::{Config, Link, Memory};
+use super::{Blocks, Bus, Config, Link, Memory};
 
 /// A machine whose numbers are assumed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,20 +43,85 @@ impl Preset {
     /// Its configuration.
     #[must_use]
     pub fn config(self) -> Config {
-        let (link, burst) = match self {
-            // AGP moves data in bursts of quadwords without packets or framing (AGP 2.0, sec. 3).
-            // 16 bytes is assumed: a crossbar of four 32-bit DDR channels, bursts of 4.
-            Self::Gf3_2001 => (Link { payload: 0, header: 0 }, 16),
-            // PCIe 2: root ports of the time settled on a 128-byte maximum payload. Header of a
-            // write with a 64-bit address 16, sequence number and LCRC 6, framing
-            // symbols 2. GDDR5: a 32-bit channel, bursts of 8.
-            Self::Hd5870 | Self::Hd6970 => (Link { payload: 128, header: 24 }, 32),
-            // PCIe 4: 256 bytes is what hosts offer; the transaction is framed as above (at
-            // 128b/130b the framing token takes 4 bytes with the sequence number, and
-            // the sum is the same). GDDR6: a 16-bit channel, bursts of 16.
-            Self::Modern => (Link { payload: 256, header: 24 }, 32),
+        Config {
+            clock_mhz: self.clock_mhz(),
+            link: Link::of(self.bus(), self.clock_mhz()),
+            memory: self.memory(),
+            block: self.blocks(),
+            ..Config::default()
+        }
+    }
+
+    /// The bus of its time; what a bus stands for, with reasons, says [`Link::take`].
+    const fn bus(self) -> Bus {
+        match self {
+            Self::Gf3_2001 => Bus::AGP4X,
+            Self::Hd5870 | Self::Hd6970 => Bus::PCIE2X16,
+            Self::Modern => Bus::PCIE4X16,
+        }
+    }
+
+    /// Bandwidths as sold: width x rate. A read takes 200 ns at every age: DRAM arrays have hardly
+    /// become faster, and what controllers gained, caches and queues took. Reads under way: the
+    /// power of two that covers bandwidth x latency.
+    fn memory(self) -> Memory {
+        let (bandwidth_mb_s, burst, outstanding) = match self {
+            // 128 bits x 460 MHz. 16 bytes is assumed: a crossbar of four 32-bit DDR channels,
+            // bursts of 4.
+            Self::Gf3_2001 => (7_360, 16, 128),
+            // 256 bits x 4.8 Gb/s. GDDR5: a 32-bit channel, bursts of 8.
+            Self::Hd5870 => (153_600, 32, 1024),
+            // 256 bits x 5.5 Gb/s.
+            Self::Hd6970 => (176_000, 32, 2048),
+            // 256 bits x 14 Gb/s. GDDR6: a 16-bit channel, bursts of 16.
+            Self::Modern => (448_000, 32, 4096),
         };
-        Config { link, memory: Memory { burst }, ..Config::default() }
+        let latency = self.clock_mhz() / 5;
+        Memory { burst, bandwidth_mb_s, latency, outstanding, ..Memory::default() }
+    }
+
+    /// Core clocks as sold; what `modern` stands for boosts to about 2 GHz.
+    const fn clock_mhz(self) -> u32 {
+        match self {
+            Self::Gf3_2001 => 200,
+            Self::Hd5870 => 850,
+            Self::Hd6970 => 880,
+            Self::Modern => 2000,
+        }
+    }
+
+    /// The fixed-function blocks are the proposal and cost the same everywhere; what differs is
+    /// what stands around them: the shaders.
+    fn blocks(self) -> Blocks {
+        let mut blocks = Blocks::default();
+        match self {
+            // The vertex FIFO is as deep as the chip's cache of transformed vertices. One vertex a
+            // cycle is left as it is, so that the tessellator shows before the shader: the chip
+            // issued one vec4 instruction a clock, so the length of a program is its interval.
+            Self::Gf3_2001 => blocks.vertex_shader.fifo = 24,
+            // 20 SIMDs of 16 lanes.
+            Self::Hd5870 => shader_array(&mut blocks, 20 * 16),
+            // 24 SIMDs of 16 lanes.
+            Self::Hd6970 => shader_array(&mut blocks, 24 * 16),
+            // The shaders are a port to an array of cores that together outrun it: one vertex a
+            // cycle goes in and comes out, which is what a geometry front end hands over. Latency
+            // 200: a wave of 64 takes 64 cycles to gather, then some 34 dependent instructions of
+            // four cycles each (a wave of 64 on 16 lanes).
+            Self::Modern => {}
+        }
+        blocks
+    }
+}
+
+/// A unified shader array, given whole to each of the two shaders: they do not compete, which
+/// flatters a run in which both are busy. A lane (VLIW of 5 or 4) issues an instruction word a
+/// cycle; a program of 20 words is assumed, and 200 cycles for it with its waits, hidden by the 11
+/// threads that a lane then holds.
+fn shader_array(blocks: &mut Blocks, lanes: u32) {
+    for shader in [&mut blocks.transform, &mut blocks.vertex_shader] {
+        shader.lanes = lanes;
+        shader.interval = 20;
+        shader.latency = 200;
     }
 }
 
@@ -72,5 +137,32 @@ mod tests {
         }
         assert_eq!(Preset::default().config(), Config::default());
         assert_eq!(Preset::named("gf3"), None);
+    }
+
+    #[test]
+    fn reads_under_way_cover_the_latency_and_are_not_many_more() {
+        for preset in Preset::ALL {
+            let Config { clock_mhz, link, memory, .. } = preset.config();
+            // Bytes that the wire moves during the latency: MB/s x cycles / MHz.
+            let moved = |mb_s: u32, latency: u32| {
+                u64::from(mb_s) * u64::from(latency) / u64::from(clock_mhz)
+            };
+            let link_bytes = u64::from(link.outstanding) * u64::from(link.request);
+            let link_moved = moved(link.bandwidth_mb_s, link.latency);
+            assert!(link_moved <= link_bytes && link_bytes < 5 * link_moved, "{preset:?}");
+            let memory_bytes = u64::from(memory.outstanding) * u64::from(memory.burst);
+            let memory_moved = moved(memory.bandwidth_mb_s, memory.latency);
+            assert!(memory_moved <= memory_bytes && memory_bytes < 2 * memory_moved, "{preset:?}");
+        }
+    }
+
+    #[test]
+    fn a_lane_of_a_shader_array_hides_its_latency() {
+        for (preset, lanes) in [(Preset::Hd5870, 320), (Preset::Hd6970, 384)] {
+            let config = preset.config();
+            let costs = config.costs(rtl_model::counter::Block::VertexShader).unwrap();
+            assert_eq!((costs.lanes, costs.in_flight()), (lanes, 11));
+            assert!(costs.in_flight() * costs.interval > costs.latency);
+        }
     }
 }

@@ -15,20 +15,23 @@ impl Config {
         let mut text = String::new();
         let mut open = "";
         for key in keys::KEYS {
-            let (section, name) = key.path.split_once('.').unwrap_or(("", key.path));
+            let (section, name) = key.path.rsplit_once('.').unwrap_or(("", key.path));
             if section != open {
                 write!(text, "\n[{section}]\n").expect("a String takes everything");
                 open = section;
             }
-            let value = lookup(&table, section, name);
+            let value = lookup(&table, key.path);
             entry(&mut text, key, name, value);
         }
         text
     }
 }
 
-fn lookup<'a>(table: &'a Table, section: &str, name: &str) -> Option<&'a Value> {
-    if section.is_empty() { table.get(name) } else { table.get(section)?.get(name) }
+fn lookup<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    match path.split_once('.') {
+        None => table.get(path),
+        Some((section, rest)) => lookup(table.get(section)?.as_table()?, rest),
+    }
 }
 
 fn entry(text: &mut String, key: &keys::Key, name: &str, value: Option<&Value>) {
@@ -46,9 +49,9 @@ fn entry(text: &mut String, key: &keys::Key, name: &str, value: Option<&Value>) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Criterion;
     use crate::config::layers::Layers;
     use crate::config::preset::Preset;
+    use crate::config::{Bus, Channels, Criterion, Engine, Frames, LaneOrder, TransferMode};
 
     fn reread(text: &str) -> Config {
         // Over another preset: every key that matters must be in the text.
@@ -66,7 +69,22 @@ mod tests {
         config.level.near = Some(1e-9);
         config.position.clip_range_log2 = Some(-3);
         config.evaluate.guard = Some(7);
+        config.engine = Engine::Stepped;
+        config.link.transfer = TransferMode::Pull;
+        config.memory.channels = Channels::Shared;
+        config.frames = Frames::Overlap;
+        config.block.clip.in_flight = Some(9);
+        config.block.backface.latency = Some(7);
+        config.block.evaluate.setup = 3;
+        config.block.evaluate.costs.lanes = 2;
+        config.block.emit.lane_order = LaneOrder::RoundRobin;
         assert_eq!(reread(&config.to_commented_toml()), config);
+        for bus in Bus::all() {
+            config.link.take(bus);
+            assert_eq!(reread(&config.to_commented_toml()), config);
+            config.link.request = 100;
+            assert_eq!(reread(&config.to_commented_toml()), config.effective());
+        }
     }
 
     #[test]
@@ -86,5 +104,6 @@ mod tests {
         let config = reread(&uncommented);
         assert_eq!(config.level.criterion, Some(Criterion::Flatness));
         assert_eq!(config.position.clip_range_log2, Some(4));
+        assert_eq!(config.block.backface.interval, Some(81));
     }
 }

@@ -1,12 +1,15 @@
 //! What crosses the link from the host, and what moves in device memory: bytes by kind.
 //!
 //! Sizes on the wire: a command's header 8 (every command but the trace's own header and end), a
-//! matrix 64, a float 4, an index 2 or 4. A command is one transfer: it is cut into packets of at
-//! most `link.payload` bytes, each with `link.header` bytes of framing, and the next command starts
-//! a packet of its own.
+//! matrix 64, a float 4, an index 2 or 4. A command is one transfer, cut as [`framing`] says; the
+//! next command starts a packet of its own. How long bytes hold a wire says [`wire`].
 
-use crate::config::{Config, Link};
+pub mod framing;
+pub mod wire;
+
+use crate::config::{Config, Link, Memory};
 use crate::trace::command::{Command, Draw, Points};
+use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
 
 /// Bytes of a command's header.
@@ -34,22 +37,16 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    fn payload(&self) -> u64 {
+    /// Bytes of all kinds, without framing.
+    #[must_use]
+    pub fn payload(&self) -> u64 {
         self.command + self.matrices + self.control_points + self.vertices + self.indices
     }
 
-    /// Framing of the packets that it takes.
-    fn overhead(&self, link: &Link) -> u64 {
-        match link.payload {
-            0 => 0,
-            payload => self.payload().div_ceil(payload.into()) * u64::from(link.header),
-        }
-    }
-
-    /// Bytes with framing.
+    /// Bytes in both directions, with framing and read requests.
     #[must_use]
     pub fn total(&self, link: &Link) -> u64 {
-        self.payload() + self.overhead(link)
+        Framed::of(self.payload(), link).total()
     }
 
     /// The same transfer with the triangles that a tessellating host sends, indexed over the whole
@@ -71,8 +68,10 @@ impl Transfer {
         counters.add(Counter::LinkControlPoints, self.control_points);
         counters.add(Counter::LinkVertices, self.vertices);
         counters.add(Counter::LinkIndices, self.indices);
-        counters.add(Counter::LinkOverhead, self.overhead(link));
-        counters.add(Counter::LinkTotal, self.total(link));
+        let framed = Framed::of(self.payload(), link);
+        counters.add(Counter::LinkOverhead, framed.overhead);
+        counters.add(Counter::LinkRequests, framed.request_bytes);
+        counters.add(Counter::LinkTotal, framed.total());
     }
 }
 
@@ -119,9 +118,14 @@ pub fn read_resident(points: &Points, count: u64, config: &Config, counters: &mu
     }
 }
 
+/// Bursts that `bytes` in a row take, from the start of a burst.
+#[must_use]
+pub fn bursts(bytes: u64, memory: &Memory) -> u64 {
+    bytes.div_ceil(memory.burst.into())
+}
+
 fn burst(bytes: u64, config: &Config, counters: &mut Counters) {
-    let size = u64::from(config.memory.burst);
-    let bursts = bytes.div_ceil(size);
+    let bursts = bursts(bytes, &config.memory);
     counters.add(Counter::MemoryBursts, bursts);
-    counters.add(Counter::MemoryWasted, bursts * size - bytes);
+    counters.add(Counter::MemoryWasted, bursts * u64::from(config.memory.burst) - bytes);
 }

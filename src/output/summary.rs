@@ -2,7 +2,6 @@
 //! up rows: totals, rates with their units, shares, and the hashes that reproduce it.
 
 use super::counters::unit_name;
-use crate::config::Engine;
 use crate::report::Report;
 use rtl_model::counter::{Block, Counter, Counters};
 use serde::Serialize;
@@ -41,7 +40,7 @@ pub fn text(report: &Report, provenance: &Provenance) -> String {
         "tessim": env!("CARGO_PKG_VERSION"),
         "trace": provenance,
         "unit": unit_name(report.config.unit),
-        "engine": match report.config.engine { Engine::None => "none" },
+        "engine": report.config.engine.name(),
         "frames": report.frames.len(),
         "totals": totals_by_name(report, &totals),
         "rates": rates(report, &totals),

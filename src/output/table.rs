@@ -115,7 +115,9 @@ fn verdict(table: &mut Table, report: &Report, totals: &Counters) {
     let times = times.map_or_else(String::new, |times| format!("  {times:.1} times as many"));
     table.rate("  if the host tessellated", ratio(report.host_link_bytes, triangles), &times);
     match report.config.engine {
-        Engine::None => table.line("  what binds the run: no engine, so no cycles"),
+        Engine::Timed | Engine::Stepped | Engine::None => {
+            table.line("  what binds the run: no engine, so no cycles");
+        }
     }
 }
 

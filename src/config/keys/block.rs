@@ -1,0 +1,143 @@
+//! The keys `block.NAME.*`, six a block: what they mean, and the reason for the default.
+
+use super::{CYCLES, FIFO, Key, key, optional};
+
+const INTERVAL: &str = "1..=1000000";
+const ENTRIES: &str = "1..=65536";
+const IN_FLIGHT: &str = "floor(latency / interval) + 1, which hides the latency";
+const ORDERS: &str = "first_free or round_robin";
+
+/// The keys of the blocks, in the order of the data. Paths and meanings must be joined before the
+/// program runs, which no function can do.
+macro_rules! keys {
+    ($($block:literal {
+        interval: $interval:literal $(absent $no_interval:expr)?,
+        latency: $latency:literal $(absent $no_latency:expr)?,
+        in_flight: $in_flight:literal,
+        fifo: $fifo:literal
+        $(, $extra:expr)?
+    })*) => {
+        &[$(
+            perhaps(
+                concat!("block.", $block, ".interval"),
+                concat!("cycles from one work item to the next on a lane; ", $interval),
+                INTERVAL,
+                &[$($no_interval)?],
+            ),
+            perhaps(
+                concat!("block.", $block, ".latency"),
+                concat!("cycles from a work item's acceptance to its result; ", $latency),
+                CYCLES,
+                &[$($no_latency)?],
+            ),
+            optional(
+                concat!("block.", $block, ".in_flight"),
+                "tokens under way in a lane at once",
+                ENTRIES,
+                ($in_flight, IN_FLIGHT),
+            ),
+            key(concat!("block.", $block, ".lanes"), "lanes side by side", "1..=4096"),
+            key(
+                concat!("block.", $block, ".lane_order"),
+                "which lane takes the next token",
+                ORDERS,
+            ),
+            key(
+                concat!("block.", $block, ".fifo"),
+                concat!("entries of the FIFO before the block: ", $fifo),
+                FIFO,
+            ),
+            $($extra,)?
+        )*]
+    };
+}
+
+/// A key that may be absent if there is something to be said of that.
+const fn perhaps(
+    path: &'static str,
+    meaning: &'static str,
+    expected: &'static str,
+    absent: &[(&'static str, &'static str)],
+) -> Key {
+    Key { path, meaning, expected, absent: if absent.is_empty() { None } else { Some(absent[0]) } }
+}
+
+pub(super) const KEYS: &[Key] = keys! {
+    "transform" {
+        interval: "an item is a control point",
+        latency: "a shader program and its waits, hidden by other points",
+        in_flight: "201",
+        fifo: "control points"
+    }
+    "port" {
+        interval: "an item is a control point, its four components converted side by side",
+        latency: "shift, round and saturate between two registers",
+        in_flight: "2",
+        fifo: "control points"
+    }
+    "assemble" {
+        interval: "an item is a control point, written to the patch store",
+        latency: "one write",
+        in_flight: "2",
+        fifo: "control points"
+    }
+    "clip" {
+        interval: "an item is a patch: 16 outcodes, four a cycle, so that the 9 new points of a \
+                   mesh's patch never wait for it",
+        latency: "the four cycles, and a register",
+        in_flight: "2",
+        fifo: "patches"
+    }
+    "backface" {
+        interval: "an item is a patch that is tested; any other takes 1 cycle"
+            absent ("81", "by method, one a cycle: 18 facets of the net (net_facets), 81 \
+                     coefficients (tangent_plane)"),
+        latency: "of a patch that is tested; any other takes 1 cycle"
+            absent ("89", "interval + 8: three multipliers deep, and registers"),
+        in_flight: "2",
+        fifo: "patches"
+    }
+    "level" {
+        interval: "an item is a level: six a patch (four edges, two interior directions) under \
+                   flatness and edge_length, one under fixed",
+        latency: "a pipelined square root and divide",
+        in_flight: "17",
+        fifo: "patches"
+    }
+    "place" {
+        interval: "an item is a reciprocal: one for each distinct level above 1",
+        latency: "a pipelined reciprocal",
+        in_flight: "17",
+        fifo: "patches"
+    }
+    "evaluate" {
+        interval: "an item is a point: a forward-difference step of a vec4 (12 adders) a cycle",
+        latency: "three additions in a row, and rounding",
+        in_flight: "5",
+        fifo: "patches",
+        key(
+            "block.evaluate.setup",
+            "cycles to set up a curve's differences, its two half-runs together, while the curve \
+             before runs: a change of basis by shifts and additions, and three powers of the step",
+            CYCLES,
+        )
+    }
+    "stitch" {
+        interval: "an item is a triangle: a step of the Bresenham walk",
+        latency: "one step",
+        in_flight: "2",
+        fifo: "rows"
+    }
+    "emit" {
+        interval: "an item is a vertex (a divide), or a triangle that brings none",
+        latency: "a pipelined reciprocal",
+        in_flight: "17",
+        fifo: "vertices and triangles"
+    }
+    "vertex_shader" {
+        interval: "an item is a vertex",
+        latency: "a shader program and its waits, hidden by other vertices",
+        in_flight: "201",
+        fifo: "vertices"
+    }
+};
