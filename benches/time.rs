@@ -20,8 +20,8 @@ impl Block for Stage {
     type Token = u32;
 
     fn accept(&mut self, token: u32, out: &mut impl Emit<u32>) -> Cost {
-        out.emit(token, self.latency);
-        Cost { interval: self.interval, latency: self.latency }
+        out.emit(token, self.latency.into());
+        Cost { interval: self.interval.into(), latency: self.latency.into() }
     }
 }
 

@@ -5,10 +5,14 @@
 //! Q16.`subpixel_bits`. A vertex with w <= 0, or outside the band of +-32768 pixels that the format
 //! holds, stays homogeneous: the clipper must see it first.
 
+mod schedule;
+
 use crate::number::{
     Divisor, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch, divide,
 };
 use crate::patch::{Vertex, View};
+
+pub use schedule::Schedule;
 
 /// A vertex on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -20,6 +20,7 @@
 mod casteljau;
 mod forward;
 mod normal;
+mod schedule;
 
 use crate::number::{Format, Modal, OverflowMode, Rounding, RoundingMode, dispatch};
 use crate::patch::{EDGES, ONE, Patch, Point, Vertex};
@@ -28,6 +29,7 @@ use serde::{Deserialize, Serialize};
 
 pub use casteljau::curve_point;
 pub use normal::{Plane, tangent_plane};
+pub use schedule::Schedule;
 
 /// How points are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

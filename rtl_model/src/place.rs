@@ -211,6 +211,13 @@ impl Placement {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Segments([u8; 6]);
 
+impl Default for Segments {
+    /// Those of a patch of which every level is 1.
+    fn default() -> Self {
+        Self([1; 6])
+    }
+}
+
 impl Segments {
     /// Segments of an edge, by its place in the order v0, u1, v1, u0.
     #[must_use]

@@ -59,7 +59,7 @@ pub trait Block {
 
     /// Whether the token needs the memory port that stages share, and for how many cycles it then
     /// holds it. Asked before acceptance, and only of stages that share the port.
-    fn port(&self, token: &Self::Token) -> Option<u32> {
+    fn port(&self, token: &Self::Token) -> Option<u64> {
         let _ = token;
         None
     }
@@ -68,16 +68,16 @@ pub trait Block {
 /// Takes the outputs of a token.
 pub trait Emit<T> {
     /// Emits `token` no earlier than `offset` cycles after acceptance.
-    fn emit(&mut self, token: T, offset: u32);
+    fn emit(&mut self, token: T, offset: u64);
 }
 
 /// What a token cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// Cycles until the lane can accept its next token, at least 1.
-    pub interval: u32,
+    pub interval: u64,
     /// Cycles until the token is done, where it emits nothing.
-    pub latency: u32,
+    pub latency: u64,
 }
 
 /// How a block stands in the chain.

@@ -2,9 +2,11 @@
 //!
 //! Sizes on the wire: a command's header 8 (every command but the trace's own header and end), a
 //! matrix 64, a float 4, an index 2 or 4. A command is one transfer, cut as [`framing`] says; the
-//! next command starts a packet of its own. How long bytes hold a wire says [`wire`].
+//! next command starts a packet of its own. How long bytes hold a wire says [`wire`],
+//! and what that means for what is behind, [`schedule`].
 
 pub mod framing;
+pub mod schedule;
 pub mod wire;
 
 use crate::config::{Config, Link, Memory};

@@ -31,6 +31,13 @@ impl Wire {
         }
     }
 
+    /// Cycles that `bytes` take on their own, rounded up.
+    #[must_use]
+    pub fn whole_cycles(&self, bytes: u64) -> u64 {
+        let busy = u128::from(bytes) * u128::from(self.clock_hz);
+        u64::try_from(busy.div_ceil(u128::from(self.bytes_per_second))).unwrap_or(u64::MAX)
+    }
+
     /// Cycles until the wire can take the next transfer after one of `bytes`: 0 for no bytes, else
     /// at least 1, for whatever stands before the wire hands over one transfer a cycle. A transfer
     /// that is over within its cycle leaves the rest of the cycle unused: that time is not carried.

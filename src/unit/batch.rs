@@ -4,6 +4,8 @@
 //! A batch is bounded, so memory does not grow with the trace; meshes are kept only where the sink
 //! wants them, a wave of patches at a time.
 
+use super::chain::Work as Done;
+use super::clock::{Clock, Fetch};
 use super::frame::FrameState;
 use super::hybrid::Pipeline;
 use crate::config::Config;
@@ -44,6 +46,17 @@ struct Pending {
     pub(super) indices: [u32; 16],
     /// Its draw, as an index into the batch.
     pub(super) draw: u32,
+    /// What brings its points.
+    fetch: Fetch,
+}
+
+/// A command that crosses the link among the patches.
+#[derive(Clone, Copy, Debug)]
+struct Sent {
+    /// Patches of the batch before it.
+    before: usize,
+    payload: u64,
+    written: u64,
 }
 
 /// What the patches of a draw share.
@@ -89,6 +102,7 @@ pub(super) struct Batch {
     spans: Vec<Span>,
     patches: Vec<Pending>,
     draws: Vec<DrawState>,
+    commands: Vec<Sent>,
 }
 
 impl Batch {
@@ -96,6 +110,13 @@ impl Batch {
     #[must_use]
     pub(super) fn is_empty(&self) -> bool {
         self.patches.is_empty()
+    }
+
+    /// A command of `payload` bytes, of which memory gets `written` in bursts, is sent behind the
+    /// patches so far. Returns whether there is room for another.
+    pub(super) fn command(&mut self, payload: u64, written: u64) -> bool {
+        self.commands.push(Sent { before: self.patches.len(), payload, written });
+        self.commands.len() < PATCHES_MAX
     }
 
     /// Patches that still fit.
@@ -146,9 +167,9 @@ impl Batch {
     }
 
     /// Adds a patch of the draw that was added last.
-    pub(super) fn patch(&mut self, id: u32, indices: [u32; 16]) {
+    pub(super) fn patch(&mut self, id: u32, indices: [u32; 16], fetch: Fetch) {
         let draw = self.draws.len() as u32 - 1;
-        self.patches.push(Pending { id, indices, draw });
+        self.patches.push(Pending { id, indices, draw, fetch });
     }
 
     /// Tessellates what waits and empties the batch. Returns vertices and triangles by draw.
@@ -161,13 +182,17 @@ impl Batch {
         frame: &FrameState,
         sink: Option<&mut dyn Sink>,
         counters: &mut Counters,
+        clock: &mut Clock,
     ) -> Result<Vec<Tally>> {
         self.quantise(config, frame, counters);
         let work = Work { batch: self, config, frame };
+        let mut timed = Timing { batch: self, clock, patches: 0, commands: 0 };
         let tallies = match sink {
-            None => work.count(counters),
-            Some(sink) => work.stream(sink, counters)?,
+            None => work.count(counters, &mut timed),
+            Some(sink) => work.stream(sink, counters, &mut timed)?,
         };
+        timed.commands();
+        self.commands.clear();
         self.points.clear();
         self.shaded = 0;
         self.spans.clear();
@@ -228,6 +253,34 @@ impl Modal for PortWork<'_> {
     }
 }
 
+/// Puts patches and commands on the clock, in the order of the trace.
+struct Timing<'a> {
+    batch: &'a Batch,
+    clock: &'a mut Clock,
+    patches: usize,
+    commands: usize,
+}
+
+impl Timing<'_> {
+    fn patches(&mut self, done: &[Done]) {
+        for &work in done {
+            self.commands();
+            self.clock.patch(self.batch.patches[self.patches].fetch, work);
+            self.patches += 1;
+        }
+    }
+
+    /// Those that come before the next patch.
+    fn commands(&mut self) {
+        while let Some(command) = self.batch.commands.get(self.commands)
+            && command.before <= self.patches
+        {
+            self.clock.command(command.payload, command.written);
+            self.commands += 1;
+        }
+    }
+}
+
 /// A batch whose points are quantised.
 struct Work<'a> {
     batch: &'a Batch,
@@ -243,6 +296,7 @@ struct Pieces {
     screen: Vec<Screen>,
     triangles: Vec<Triangle>,
     tallies: Vec<Tally>,
+    done: Vec<Done>,
     counters: Counters,
 }
 
@@ -257,7 +311,7 @@ struct Piece {
 
 impl Work<'_> {
     /// Counters only.
-    fn count(&self, counters: &mut Counters) -> Vec<Tally> {
+    fn count(&self, counters: &mut Counters, timed: &mut Timing<'_>) -> Vec<Tally> {
         let all = &self.batch.patches;
         let parts: Vec<Pieces> = all
             .par_chunks(GRAIN)
@@ -265,13 +319,19 @@ impl Work<'_> {
             .collect();
         let mut tallies = Vec::new();
         for part in parts {
+            timed.patches(&part.done);
             part.account(counters, &mut tallies);
         }
         tallies
     }
 
     /// Counters and meshes.
-    fn stream(&self, sink: &mut dyn Sink, counters: &mut Counters) -> Result<Vec<Tally>> {
+    fn stream(
+        &self,
+        sink: &mut dyn Sink,
+        counters: &mut Counters,
+        timed: &mut Timing<'_>,
+    ) -> Result<Vec<Tally>> {
         let mut tallies = Vec::new();
         for wave in self.batch.patches.chunks(WAVE) {
             let parts: Vec<Pieces> = wave
@@ -280,6 +340,7 @@ impl Work<'_> {
                 .collect();
             for part in parts {
                 part.send(sink)?;
+                timed.patches(&part.done);
                 part.account(counters, &mut tallies);
             }
         }
@@ -300,6 +361,7 @@ impl Work<'_> {
                     pieces.keep(pending.id, draw.reversed, pipeline);
                 }
             }
+            pieces.done.push(pipeline.work);
         }
         pieces.counters = std::mem::take(&mut pipeline.counters);
         pieces

@@ -5,6 +5,7 @@
 //!   patch ─► clip ─► backface ─► level ─► place ─► evaluate ─► stitch ─► emit ─► vertex shader
 //! ```
 
+use super::chain::{self, Fate, Work};
 use crate::config::{Config, Normals};
 use rtl_model::backface::Verdict;
 use rtl_model::counter::{Counter, Counters};
@@ -29,6 +30,8 @@ pub(super) struct Pipeline<'a> {
     pub(super) screen: Vec<Screen>,
     stitch: Stitch,
     degenerate: Degenerate,
+    /// What became of the last patch.
+    pub(super) work: Work,
     /// What all patches cost.
     pub(super) counters: Counters,
 }
@@ -46,6 +49,7 @@ impl<'a> Pipeline<'a> {
             screen: Vec::new(),
             stitch: Stitch::default(),
             degenerate: Degenerate::default(),
+            work: Work::clipped(),
             counters: Counters::default(),
         }
     }
@@ -59,6 +63,7 @@ impl<'a> Pipeline<'a> {
     /// Takes a patch through all blocks. Returns whether anything is left of it.
     pub(super) fn accept(&mut self, patch: &Patch, state: &level::State) -> bool {
         self.screen.clear();
+        self.work = Work::clipped();
         self.keeps(patch) && {
             self.place(patch, state);
             self.shape(patch);
@@ -79,6 +84,8 @@ impl<'a> Pipeline<'a> {
         let verdict = backface::accept(patch, &self.view, self.config.backface.method);
         counters.add(Counter::BackfaceTested, u64::from(verdict != Verdict::Untested));
         counters.add(Counter::BackfaceCulled, u64::from(verdict == Verdict::Culled));
+        self.work.tested = verdict != Verdict::Untested;
+        self.work.fate = if verdict == Verdict::Culled { Fate::Culled } else { Fate::Kept };
         verdict != Verdict::Culled
     }
 
@@ -86,6 +93,9 @@ impl<'a> Pipeline<'a> {
     fn place(&mut self, patch: &Patch, state: &level::State) {
         let (levels, events) = level::accept(patch, &self.view, state);
         self.placement.set(&levels);
+        self.work.levels = chain::levels(state.criterion);
+        self.work.reciprocals = self.placement.reciprocals() as u8; // at most 6
+        self.work.segments = self.placement.segments();
         let [columns, rows] = self.placement.interior();
         let parameters = self.placement.boundary() + columns + rows;
         let counters = &mut self.counters;

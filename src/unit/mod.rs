@@ -5,6 +5,8 @@
 //! them over the threads, `hybrid` is the unit's pipeline for one patch.
 
 mod batch;
+mod chain;
+mod clock;
 mod frame;
 mod hybrid;
 pub mod pattern;

@@ -1,6 +1,7 @@
 //! A run: carries out the commands of a trace, frame by frame.
 
 use super::batch::{self, Batch, DrawState, Tally};
+use super::clock::{Clock, Fetch};
 use super::frame::FrameState;
 use super::{blocks, hybrid};
 use crate::config::{Config, Unit};
@@ -33,6 +34,9 @@ pub(super) struct Run<'a> {
     draws: Vec<Transfer>,
     tallies: Vec<Tally>,
     batch: Batch,
+    clock: Clock,
+    /// Points of the instance that have been fetched.
+    fetched: u64,
     scratch: Vec<[f32; 4]>,
     /// Of the current frame; before the first frame, what that frame will be charged with.
     counters: Counters,
@@ -52,6 +56,8 @@ impl<'a> Run<'a> {
             draws: Vec::new(),
             tallies: Vec::new(),
             batch: Batch::default(),
+            clock: Clock::new(config),
+            fetched: 0,
             scratch: Vec::new(),
             counters: Counters::default(),
             frames: Vec::new(),

@@ -24,12 +24,13 @@ impl Schedule {
 
     /// Emits the triangles of `strip`.
     pub fn accept(&self, strip: &Strip, out: &mut impl Emit<Triangle>) -> Cost {
-        let mut offset = self.latency;
+        let mut offset = u64::from(self.latency);
         for triangle in strip.triangles() {
             out.emit(triangle, offset);
-            offset += self.interval;
+            offset += u64::from(self.interval);
         }
-        Cost { interval: strip.count() * self.interval, latency: self.latency }
+        let interval = u64::from(strip.count()) * u64::from(self.interval);
+        Cost { interval, latency: self.latency.into() }
     }
 }
 

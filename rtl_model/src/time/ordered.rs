@@ -80,8 +80,8 @@ struct Outputs<'a, T> {
 }
 
 impl<T> Emit<T> for Outputs<'_, T> {
-    fn emit(&mut self, token: T, offset: u32) {
-        self.queue.push_back((token, self.accept + u64::from(offset)));
+    fn emit(&mut self, token: T, offset: u64) {
+        self.queue.push_back((token, self.accept + offset));
     }
 }
 
@@ -237,7 +237,7 @@ impl<B: Block> Stage<B> {
         let without_port = at.max(self.next_accept).max(self.lanes.lane(lane).ready);
         let port = self.block.port(&token).filter(|_| self.shape.shares_port);
         if let Some(cycles) = port {
-            *port_free = accept + u64::from(cycles);
+            *port_free = accept + cycles;
         }
         if let Some(fifo) = &mut self.fifo {
             if frame != self.peak_frame {
@@ -249,14 +249,14 @@ impl<B: Block> Stage<B> {
         let before = self.outputs.len();
         let cost = self.block.accept(token, &mut Outputs { queue: &mut self.outputs, accept });
         assert!(cost.interval >= 1, "an initiation interval is at least a cycle");
-        let next = accept + u64::from(cost.interval);
+        let next = accept + cost.interval;
         self.next_accept = accept + 1;
         self.flights.push_back(Flight {
             lane,
             frame,
             accept,
             next,
-            done: accept + u64::from(cost.latency),
+            done: accept + cost.latency,
             outputs: self.outputs.len() - before,
             blocked: 0,
             by_order: 0,

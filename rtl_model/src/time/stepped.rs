@@ -128,8 +128,8 @@ struct Outputs<'a, T> {
 }
 
 impl<T> Emit<T> for Outputs<'_, T> {
-    fn emit(&mut self, token: T, offset: u32) {
-        self.queue.push_back((token, self.now + u64::from(offset)));
+    fn emit(&mut self, token: T, offset: u64) {
+        self.queue.push_back((token, self.now + offset));
     }
 }
 
@@ -238,7 +238,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
             if let Some(cycles) = stage.wants_port(self.now)
                 && stage.lane(self.now).is_some()
             {
-                self.port_free = self.now + u64::from(cycles);
+                self.port_free = self.now + cycles;
                 return Some(k);
             }
         }
@@ -282,7 +282,7 @@ impl<B: Block> Stage<B> {
     }
 
     /// The cycles for which the token at the door needs the shared port.
-    fn wants_port(&self, now: u64) -> Option<u32> {
+    fn wants_port(&self, now: u64) -> Option<u64> {
         let entry = self.visible(now).filter(|_| self.shape.shares_port)?;
         self.block.port(&entry.token)
     }
@@ -333,7 +333,7 @@ impl<B: Block> Stage<B> {
         let before = self.outputs.len();
         let cost = self.block.accept(token, &mut Outputs { queue: &mut self.outputs, now });
         let outputs = self.outputs.len() - before;
-        let done = now + u64::from(cost.latency);
+        let done = now + cost.latency;
         self.flights.push_back(Flight { lane, frame, done, outputs });
         self.next_accept = now + 1;
         probe.accepted(self.index, lane, now);
@@ -343,7 +343,7 @@ impl<B: Block> Stage<B> {
         taken.enter_idle(times);
         taken.in_flight += 1;
         taken.last = frame;
-        taken.next_accept = now + u64::from(cost.interval);
+        taken.next_accept = now + cost.interval;
         if self.shape.lanes > 1 {
             self.round_robin = (self.round_robin + 1) % self.lanes.len();
             // The others did not wait for the port: this token did not go to them.

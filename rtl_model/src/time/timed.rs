@@ -227,9 +227,9 @@ fn push<B: Block, P: Probe, R: Rules>(
         stage.left = turn - 1;
         stage.tokens_out += count;
     } else {
-        stage.left = stage.left.max(accept + u64::from(cost.latency));
+        stage.left = stage.left.max(accept + cost.latency);
     }
-    let next = accept + u64::from(cost.interval);
+    let next = accept + cost.interval;
     let books = stage.lanes.lane(lane);
     books.blocked += blocked;
     books.by_order += by_order;
@@ -248,7 +248,7 @@ fn by_evaluation<B: Block>(
 ) -> u64 {
     let Some(cycles) = stage.block.port(token) else { return from };
     let (_, accept) = stage.lanes.choose(from.max(*port_free));
-    *port_free = accept + u64::from(cycles);
+    *port_free = accept + cycles;
     accept
 }
 
@@ -270,8 +270,8 @@ struct Outputs<'a, B, P, R> {
 
 impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
     #[inline(always)]
-    fn emit(&mut self, token: B::Token, offset: u32) {
-        let ready = self.accept + u64::from(offset);
+    fn emit(&mut self, token: B::Token, offset: u64) {
+        let ready = self.accept + offset;
         let turn = ready.max(self.turn);
         let first = ready.max(self.head);
         let room = self.rest.first().and_then(|next| next.fifo.as_ref()).map_or(0, Fifo::room);

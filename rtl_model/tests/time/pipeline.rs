@@ -49,15 +49,15 @@ impl Block for Dice {
         let latency = random.within(0, self.latency_max);
         let mut offset = random.within(0, self.latency_max);
         for _ in 0..random.within(self.fan_out.0, self.fan_out.1) {
-            out.emit(random.next(), offset);
+            out.emit(random.next(), offset.into());
             offset += random.within(0, 3);
         }
-        Cost { interval, latency }
+        Cost { interval: interval.into(), latency: latency.into() }
     }
 
-    fn port(&self, token: &u64) -> Option<u32> {
+    fn port(&self, token: &u64) -> Option<u64> {
         let mut random = Random(token ^ self.salt ^ 0x5eed);
-        random.chance(self.port).then(|| random.within(1, 6))
+        random.chance(self.port).then(|| random.within(1, 6).into())
     }
 }
 

@@ -11,7 +11,7 @@ use rtl_model::time::{Block, Cost, Emit, Frames, LaneOrder, Shape, StageTimes, T
 struct Script {
     costs: Vec<(u32, Vec<u32>)>,
     next: usize,
-    port: Option<u32>,
+    port: Option<u64>,
 }
 
 impl Script {
@@ -28,11 +28,11 @@ impl Block for Script {
     fn accept(&mut self, (): (), out: &mut impl Emit<()>) -> Cost {
         let (interval, offsets) = &self.costs[self.next % self.costs.len()];
         self.next += 1;
-        offsets.iter().for_each(|&offset| out.emit((), offset));
-        Cost { interval: *interval, latency: 0 }
+        offsets.iter().for_each(|&offset| out.emit((), offset.into()));
+        Cost { interval: (*interval).into(), latency: 0 }
     }
 
-    fn port(&self, (): &()) -> Option<u32> {
+    fn port(&self, (): &()) -> Option<u64> {
         self.port
     }
 }

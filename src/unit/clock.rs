@@ -1,0 +1,192 @@
+//! The clock of a run: what the host sends goes in, in the order of the trace; the engine that the
+//! configuration names times it.
+
+use super::chain::{self, Stage, Token, Work};
+use crate::config::{Config, Engine, TransferMode, Unit};
+use crate::link::Transfer;
+use crate::link::framing::Pieces;
+use crate::link::schedule::Parcel;
+use rtl_model::time::ordered::Ordered;
+use rtl_model::time::stepped::Stepped;
+use rtl_model::time::timed::Timed;
+use rtl_model::time::{Shape, Times};
+
+/// Most payload bytes of a parcel under `push`: those of its bursts fit 32 bits.
+const PARCEL_MAX: u64 = 1 << 30;
+
+/// The clock.
+pub(super) struct Clock {
+    config: Config,
+    engine: Running,
+    /// The command that is being sent.
+    pieces: Pieces,
+    /// Vertices and triangles of the draw that is being sent, where the host tessellates.
+    draw: [u64; 2],
+    sent: Sent,
+}
+
+/// What the host has sent in a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Sent {
+    /// Tokens.
+    pub(super) tokens: u64,
+    /// Bytes that crossed the link, in both directions.
+    pub(super) link_bytes: u64,
+    /// Bytes of memory bursts, read and written.
+    pub(super) memory_bytes: u64,
+}
+
+enum Running {
+    None,
+    Timed(Box<Timed<Stage>>),
+    /// Where stages share a memory port, who gets it depends on the order of time.
+    Ordered(Box<Ordered<Stage>>),
+    Stepped(Box<Stepped<Stage>>),
+}
+
+/// Control points of a patch that come from memory or from on chip.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Fetch {
+    /// How many.
+    pub(super) points: u8,
+    /// Bytes of the bursts that bring them, where they are resident.
+    pub(super) read: u32,
+}
+
+impl Clock {
+    pub(super) fn new(config: &Config) -> Self {
+        let chain = chain::chain(config);
+        let shared = chain.iter().any(|(_, shape): &(Stage, Shape)| shape.shares_port);
+        let engine = match config.engine {
+            Engine::None => Running::None,
+            Engine::Timed if shared => {
+                Running::Ordered(Box::new(Ordered::new(chain, config.frames, ())))
+            }
+            Engine::Timed => Running::Timed(Box::new(Timed::new(chain, config.frames, ()))),
+            Engine::Stepped => Running::Stepped(Box::new(Stepped::new(chain, config.frames, ()))),
+        };
+        Self {
+            config: config.clone(),
+            engine,
+            pieces: Pieces::new(&config.link),
+            draw: [0; 2],
+            sent: Sent::default(),
+        }
+    }
+
+    fn feed(&mut self, token: Token) {
+        self.sent.tokens += 1;
+        let (Token::Parcel(parcel, _) | Token::Vertices(parcel, _)) = token else {
+            unreachable!("the host sends parcels");
+        };
+        self.sent.link_bytes += parcel.down + u64::from(parcel.up);
+        self.sent.memory_bytes += u64::from(parcel.read) + u64::from(parcel.written);
+        match &mut self.engine {
+            Running::None => {}
+            Running::Timed(engine) => engine.feed(token),
+            Running::Ordered(engine) => engine.feed(token),
+            Running::Stepped(engine) => engine.feed(token),
+        }
+    }
+
+    /// A command of `payload` bytes, without what the host makes of its patches, crosses the link.
+    /// `written` bytes go to memory, in bursts.
+    pub(super) fn command(&mut self, payload: u64, written: u64) {
+        self.end_draw();
+        self.pieces = Pieces::new(&self.config.link);
+        match self.config.unit {
+            Unit::Hybrid => self.upload(payload, written),
+            Unit::Triangles => self.stream(payload, 0),
+        }
+    }
+
+    fn upload(&mut self, payload: u64, written: u64) {
+        let (mut payload, mut written) = (payload, written);
+        while payload > 0 {
+            let part = payload.min(self.parcel_max());
+            payload -= part;
+            // The last parcel has what the bursts have beyond the payload.
+            let write = if payload == 0 { written } else { written.min(part) };
+            written -= write;
+            let parcel = Parcel { written: write as u32, ..self.piece(part) };
+            self.feed(Token::Parcel(parcel, None));
+        }
+    }
+
+    /// A patch of the command that was sent last, and what became of it: fetched by the unit, or
+    /// sent as vertices.
+    pub(super) fn patch(&mut self, fetch: Fetch, work: Work) {
+        match self.config.unit {
+            Unit::Hybrid => {
+                let Fetch { points, read } = fetch;
+                let parcel = Parcel { points, read, ..Parcel::default() };
+                self.feed(Token::Parcel(parcel, Some(work)));
+            }
+            Unit::Triangles => {
+                let [vertices, triangles] = work.made();
+                self.draw[0] += vertices;
+                self.draw[1] += triangles;
+                let bytes = u64::from(self.config.triangles.vertex_bytes);
+                self.stream(vertices * bytes, vertices);
+            }
+        }
+    }
+
+    /// Where the host tessellates, a draw's indices follow its vertices: only then is it known how
+    /// wide they are.
+    fn end_draw(&mut self) {
+        let [vertices, triangles] = std::mem::take(&mut self.draw);
+        let all = Transfer::default().with_triangles(vertices, triangles, &self.config);
+        self.stream(all.indices, 0);
+    }
+
+    /// The next `payload` bytes of a command, of which `vertices` come out.
+    fn stream(&mut self, payload: u64, vertices: u64) {
+        let (mut payload, mut vertices) = (payload, vertices);
+        while payload > 0 {
+            let part = payload.min(self.parcel_max());
+            // A vertex comes out with the parcel that completes its share.
+            let later = (u128::from(vertices) * u128::from(payload - part)).div_ceil(payload.into());
+            let count = vertices - later as u64;
+            payload -= part;
+            vertices -= count;
+            let parcel = self.piece(part);
+            self.feed(Token::Vertices(parcel, count as u32));
+        }
+    }
+
+    fn parcel_max(&self) -> u64 {
+        match self.config.link.transfer {
+            TransferMode::Push => PARCEL_MAX,
+            TransferMode::Pull => self.config.link.request.into(),
+        }
+    }
+
+    fn piece(&mut self, payload: u64) -> Parcel {
+        let framed = self.pieces.piece(payload);
+        let up = u32::try_from(framed.request_bytes).expect("a parcel is one read request");
+        Parcel { down: framed.downstream(), up, ..Parcel::default() }
+    }
+
+    /// The frame's last patch has been sent. Returns what was.
+    pub(super) fn end_frame(&mut self) -> Sent {
+        self.end_draw();
+        match &mut self.engine {
+            Running::None => {}
+            Running::Timed(engine) => engine.end_frame(),
+            Running::Ordered(engine) => engine.end_frame(),
+            Running::Stepped(engine) => engine.end_frame(),
+        }
+        std::mem::take(&mut self.sent)
+    }
+
+    /// The times of the run, if an engine ran.
+    pub(super) fn finish(self) -> Option<Times> {
+        match self.engine {
+            Running::None => None,
+            Running::Timed(engine) => Some(engine.finish().0),
+            Running::Ordered(engine) => Some(engine.finish().0),
+            Running::Stepped(engine) => Some(engine.finish().0),
+        }
+    }
+}
