@@ -311,7 +311,9 @@ mod tests {
         assert!(unknown.starts_with("c.toml:2:7: link.bus: found \"pci4x16\", expected agp1x,"));
         assert!(unknown.ends_with("did you mean `pcie4x16`?"), "{unknown}");
         assert!(message("", &["link.bus=16"]).contains("link.bus: found 16, expected agp1x,"));
-        // What a bus set is blamed on the bus.
+        // What a bus set is blamed on the bus, and what stands beside it on its own place.
+        let blamed = message("link.header = 8\n", &["link.bus=pcie2x16", "link.payload=0"]);
+        assert!(blamed.starts_with("--set link.bus=pcie2x16: link.header: found 24"), "{blamed}");
         let blamed = message("[link]\nheader = 8\nbus = \"agp8x\"\n", &[]);
         assert!(blamed.starts_with("c.toml:2:10: link.header: found 8 with payload 0"), "{blamed}");
     }
