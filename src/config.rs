@@ -41,13 +41,15 @@ pub enum Engine {
 }
 
 /// The effective configuration of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// The unit.
     pub unit: Unit,
     /// The engine.
     pub engine: Engine,
+    /// Clock of the unit in MHz: turns cycles into seconds, and changes no cycle.
+    pub clock_mhz: u32,
     /// Positions behind the port.
     pub position: Position,
     /// Levels.
@@ -206,6 +208,26 @@ pub struct Memory {
 pub struct Triangles {
     /// Bytes of a vertex on the link: position 12, normal 12, texture coordinates 8.
     pub vertex_bytes: u32,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            unit: Unit::default(),
+            engine: Engine::default(),
+            clock_mhz: 2000,
+            position: Position::default(),
+            level: Level::default(),
+            clip: Clip::default(),
+            backface: Backface::default(),
+            evaluate: Evaluate::default(),
+            emit: Emit::default(),
+            vertex_shader: VertexShader::default(),
+            link: Link::default(),
+            memory: Memory::default(),
+            triangles: Triangles::default(),
+        }
+    }
 }
 
 impl Default for Position {

@@ -109,6 +109,7 @@ impl Config {
             ));
         }
         within("memory.burst", self.memory.burst, 1, most)?;
+        within("clock_mhz", self.clock_mhz, 1, 100_000)?;
         within("triangles.vertex_bytes", self.triangles.vertex_bytes, 1, most)
     }
 }

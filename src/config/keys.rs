@@ -23,6 +23,7 @@ const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 pub const KEYS: &[Key] = &[
     key("unit", "the unit that runs", "hybrid or triangles"),
     key("engine", "what lays time over the blocks", "none (timed and stepped do not exist yet)"),
+    key("clock_mhz", "the unit's clock in MHz: cycles do not depend on it", "1..=100000"),
     key("position.width", "bits of a coordinate behind the port, with its sign", "8..=48"),
     key("position.rounding", "how the port rounds", ROUNDING),
     key(
