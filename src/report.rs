@@ -187,3 +187,48 @@ impl Report {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::timed_report;
+
+    #[test]
+    fn frames_add_up_and_peaks_do_not() {
+        let whole = timed_report().whole();
+        let times = whole.times.expect("it is timed");
+        assert_eq!((times.elapsed, times.stages[1].busy, times.stages[2].total), (200, 190, 600));
+        assert_eq!(times.stages[1].fifo_peak, 2);
+        assert_eq!((whole.work[1].tokens_in, whole.work[1].tokens_out), (2, 8));
+        assert_eq!(whole.work[1].ops.map(|ops| (ops.add, ops.mul_bits)), Some((8, 60)));
+        assert_eq!(whole.work[0].ops, None, "link has no arithmetic in any frame");
+    }
+
+    #[test]
+    fn a_run_that_breaks_a_law_is_not_reported() {
+        timed_report().check();
+        type Harm = fn(&mut Report);
+        let harms: [Harm; 5] = [
+            |r| r.frames[1].times.as_mut().expect("it is timed").stages[2].total += 3,
+            |r| r.frames[0].times.as_mut().expect("it is timed").elapsed += 1,
+            |r| r.frames[0].times = None,
+            |r| r.occupancy[2][0] -= 1,
+            |r| r.occupancy.truncate(2),
+        ];
+        for (number, harm) in harms.iter().enumerate() {
+            let mut report = timed_report();
+            harm(&mut report);
+            let caught = std::panic::catch_unwind(|| report.check());
+            assert!(caught.is_err(), "violation {number} passes");
+        }
+        let frame = timed_report().frames.remove(0);
+        let chain = timed_report().chain;
+        let made =
+            |work: Vec<Work>| Frame::new(&chain, Counters::default(), work, frame.times.clone());
+        made(frame.work.clone());
+        let mut work = frame.work.clone();
+        work[1].tokens_out += 1;
+        let caught = std::panic::catch_unwind(|| made(work));
+        assert!(caught.is_err(), "an engine that lost a token passes");
+    }
+}

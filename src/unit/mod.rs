@@ -106,3 +106,18 @@ fn work(chain: &[Stage], counters: &Counters, config: &Config) -> Vec<Work> {
     };
     chain.iter().map(of).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_timed_chain_is_of_the_units_blocks_in_their_order() {
+        for unit in [Unit::Hybrid, Unit::Triangles] {
+            let chain: Vec<_> = chain(unit).iter().map(|stage| stage.block).collect();
+            let blocks = blocks(unit).iter().copied().filter(|block| chain.contains(block));
+            assert_eq!(blocks.collect::<Vec<_>>(), chain);
+            assert!(chain.len() >= 2);
+        }
+    }
+}

@@ -225,7 +225,7 @@ pub const STANDARD: &[Standard] = {
             Q::FifoPeak,
             "fifo.peak",
             Entries,
-            "most tokens that waited in the FIFO before the block at the start of a cycle",
+            "most tokens that the FIFO before the block held at once",
             "<= the FIFO's depth",
         ),
         row(
