@@ -232,6 +232,8 @@ fn counters_explains_blocks_and_single_counters() {
     let stitch = String::from_utf8(stitch.stdout).unwrap();
     assert!(stitch.contains("law: busy + starved + blocked = total"));
     assert!(stitch.contains("of a triangle: the walk's error tested and moved, 8 bits each"));
+    let bits = tessim().args(["counters", "stitch.ops.add.bits"]).output().unwrap();
+    assert_eq!(bits.stdout.iter().filter(|byte| **byte == b'\n').count(), 2, "itself and its law");
     let one = tessim().args(["counters", "emit.triangles"]).output().unwrap();
     assert_eq!(String::from_utf8(one.stdout).unwrap().lines().count(), 2);
     assert!(fails(2, &["counters", "stich"]).contains("did you mean `stitch`?"));
