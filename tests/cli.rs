@@ -89,6 +89,9 @@ fn a_result_folder_is_complete_and_reproduces_itself() {
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
     assert_eq!(summary["trace"]["title"], "teapot");
     assert_eq!(summary["totals"]["link.bytes.control_points"], 6144);
+    assert_eq!(summary["totals"]["port.tokens.in"], 512);
+    assert!(!csv.contains(",cycles.") && !csv.contains(",fifo.peak,"), "no engine, no cycles");
+    assert!(!first.join("occupancy.csv").exists());
 }
 
 #[test]
@@ -236,6 +239,25 @@ fn counters_explains_blocks_and_single_counters() {
         assert!(all.contains(&format!("{}.{} ", declared.block.name(), declared.name)));
         assert!(all.contains(declared.meaning) && all.contains(declared.law));
     }
+    for row in [
+        "stitch.cycles.starved.by.evaluate ",
+        "vertex_shader.cycles.starved.by.link ",
+        "link.cycles.starved.by.host ",
+        "stitch.cycles.blocked.by.emit ",
+        "stitch.fifo.peak ",
+        "stitch.cycles.blocked.by.order ",
+        "unit.cycles.total ",
+        "memory.tokens.in ",
+    ] {
+        assert_eq!(all.lines().filter(|line| line.starts_with(row)).count(), 1, "{row}");
+    }
+    assert!(!all.contains("\nlink.fifo.peak") && !all.contains("\nassemble.ops"));
+    let stitch = tessim().args(["counters", "stitch"]).output().unwrap();
+    let stitch = String::from_utf8(stitch.stdout).unwrap();
+    assert!(stitch.contains("law: busy + starved + blocked = total"));
+    assert!(stitch.contains("of a triangle: the walk's error tested and moved, 8 bits each"));
+    let bits = tessim().args(["counters", "stitch.ops.add.bits"]).output().unwrap();
+    assert_eq!(bits.stdout.iter().filter(|byte| **byte == b'\n').count(), 2, "itself and its law");
     let one = tessim().args(["counters", "emit.triangles"]).output().unwrap();
     assert_eq!(String::from_utf8(one.stdout).unwrap().lines().count(), 2);
     assert!(fails(2, &["counters", "stich"]).contains("did you mean `stitch`?"));

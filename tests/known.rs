@@ -11,6 +11,7 @@ mod run;
 
 use rtl_model::counter::Counter as C;
 use rtl_model::counter::Counters;
+use rtl_model::counter::standard::{Stage, Work};
 use std::io::BufReader;
 use std::path::Path;
 use tessim::config::{BackfaceMethod, Config, Normals, Scheme, TransferMode, Unit};
@@ -63,6 +64,7 @@ fn a_teapot_at_level_8_is_what_arithmetic_says() {
         (C::EvaluateCurves, 32 * 2 * 15),     // two half-runs for 4 edges, 4 columns, 7 rows
         (C::EvaluateSteps, 32 * 15 * 6),      // 3 steps each
         (C::PlaceReciprocals, 32),            // one level
+        (C::EvaluateStrips, 32 * (6 + 8)),    // gaps between 7 rows, half-sides
         (C::EmitBytes, 2592 * 16 + 4096 * 6), // 16 a vertex, three 2-byte indices a triangle
         (C::VertexShaderInvocations, 2592),
         (C::VertexShaderBytesIn, 2592 * 24),
@@ -207,9 +209,25 @@ fn laws(c: &Counters, config: &Config) {
         (get(C::EmitToClipper), get(C::EmitVertices)),
         // 2V - B - 2 with at least 4 boundary vertices a patch
         (get(C::StitchTriangles), 2 * get(C::EmitVertices) - 6 * get(C::LevelPatches)),
+        (get(C::LevelFlatness) + get(C::LevelEdgeLength), get(C::LevelPatches)),
+        (get(C::LevelPatches), get(C::EvaluateStrips)),
+        (get(C::EvaluateStrips), get(C::StitchTriangles)),
     ];
     for (k, (a, b)) in at_most.iter().enumerate() {
         assert!(a <= b, "bound {k}: {a} > {b} under {config:?}");
+    }
+}
+
+/// What the blocks of the chain hand on arrives, and wide operations are no fewer than operations.
+fn flow(chain: &[Stage], work: &[Work]) {
+    assert_eq!(chain.len(), work.len());
+    for (stages, work) in chain.windows(2).zip(work.windows(2)) {
+        let [from, to] = [0, 1].map(|k| stages[k].block.name());
+        assert_eq!(work[0].tokens_out, work[1].tokens_in, "tokens from {from} to {to}");
+    }
+    for ops in work.iter().filter_map(|work| work.ops) {
+        assert!(ops.add <= ops.add_bits && ops.mul <= ops.mul_bits, "{ops:?}");
+        assert!(ops.compare <= ops.compare_bits, "{ops:?}");
     }
 }
 
@@ -235,8 +253,10 @@ fn counters_conserve_what_flows_under_every_configuration() {
         config.memory.burst = random.of([16, 32, 64]);
         config.level.max_level = random.of([None, Some(4.0)]);
         for name in SHIPPED {
-            for counters in &run_text(&shipped(name), &config).expect("a shipped trace").frames {
-                laws(counters, &config);
+            let report = run_text(&shipped(name), &config).expect("a shipped trace");
+            for frame in &report.frames {
+                laws(&frame.counters, &config);
+                flow(&report.chain, &frame.work);
                 frames += 1;
             }
         }

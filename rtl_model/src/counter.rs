@@ -2,7 +2,10 @@
 //! conservation law.
 //!
 //! Declared once, here; a block adds to them by name and cannot invent one. Values are `u64`. Names
-//! that end in `.peak` aggregate by maximum, all others by sum.
+//! that end in `.peak` aggregate by maximum, all others by sum. What every block of a timed chain
+//! has alike (tokens, arithmetic, its FIFO, its cycles) is declared once for all in [`standard`].
+
+pub mod standard;
 
 use std::fmt;
 
@@ -64,6 +67,8 @@ pub enum Block {
     Emit,
     /// The vertex shader.
     VertexShader,
+    /// The unit as a whole.
+    Unit,
 }
 
 impl Block {
@@ -85,6 +90,7 @@ impl Block {
             Self::Stitch => "stitch",
             Self::Emit => "emit",
             Self::VertexShader => "vertex_shader",
+            Self::Unit => "unit",
         }
     }
 }
@@ -174,6 +180,8 @@ counters! {
     }
     Level {
         LevelPatches "patches" Count "patches given levels", "= backface patches.in - patches.culled";
+        LevelFlatness "patches.flatness" Count "patches whose levels keep a flatness", "flatness + edge_length <= patches; the rest have fixed levels";
+        LevelEdgeLength "patches.edge_length" Count "patches whose levels come from the lengths of edges", "flatness + edge_length <= patches";
         LevelClamped "levels.clamped" Count "levels, of four edges and two interior directions, of which the criterion asked more than max_level", "<= 6 x patches";
         LevelNear "edges.near" Count "edges given max_level because one of their points is nearer than the near threshold", "<= 4 x patches";
         LevelOverflows "overflows" Count "projected control points that did not fit the projection's format", "";
@@ -185,6 +193,7 @@ counters! {
     Evaluate {
         EvaluateInvocations "invocations" Count "points evaluated: boundary and interior vertices, and the control points of interior rows", "";
         EvaluateVertices "vertices" Count "distinct parameters within the patch", "= emit vertices";
+        EvaluateStrips "strips" Count "strips of triangles handed to the stitcher: the gaps between interior rows, the half-sides, the segments across a centre", "= stitch tokens.in";
         EvaluateCurves "curves" Count "curves set up for forward differencing, a half-run each; 0 under de Casteljau", "";
         EvaluateSteps "steps" Count "forward-difference steps of a vec4, or de Casteljau curve points", "";
         EvaluateNormals "normals" Count "tangent planes evaluated", "= vertices or 0";

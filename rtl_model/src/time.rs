@@ -18,7 +18,7 @@
 //!   emit(m,j) = max( accept(m) + offset(j),
 //!                    previous emission + 1,       one output a cycle leaves the block
 //!                    left(m-1),                   in the order of tokens
-//!                    accept(token d back, downstream) + 1 )     credit: a pop is seen a cycle later
+//!                    accept(token d back, downstream) + 1 )   credit: a pop is seen later
 //!   left(m)   = last emission of m; max( accept(m) + latency, left(m-1) ) if it emits nothing
 //! ```
 //!
@@ -26,8 +26,8 @@
 //! each token once and computes the maxima, [`stepped`] goes cycle by cycle. They agree on the time
 //! of every token and on every counter. Where stages of one chain share a memory port, who gets it
 //! depends on the order of time across stages, which a token's own visit does not know: then
-//! [`ordered`] computes the same maxima, event by event. Two stages that ask in the same cycle: the
-//! one nearer to the output goes first, for that drains the chain.
+//! [`ordered`] computes the same maxima, event by event. Of stages that ask in the same cycle, the
+//! one nearest to the output goes first, for that drains the chain.
 //!
 //! Attribution, for each lane and each cycle from 0 to the elapsed time:
 //!

@@ -1,46 +1,131 @@
 //! `counters`: every number that a run reports, with its measure, meaning and conservation law.
 
 use super::print;
-use rtl_model::counter::{DECLARATIONS, Declaration};
+use rtl_model::counter::standard::{self, ELAPSED, Quantity, Stage};
+use rtl_model::counter::{Block, DECLARATIONS, Measure};
 use std::fmt::Write;
+use tessim::config::{Config, Unit};
 use tessim::error::{Error, Result};
+use tessim::unit::arithmetic::PIECES;
+use tessim::unit::chain;
 
 /// Explain the counters: measure, meaning, conservation law
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  tessim counters stitch\n  tessim counters stitch.triangles")]
+#[command(after_help = "Examples:\n  tessim counters stitch\n  tessim counters evaluate.ops.mul")]
 pub(crate) struct Args {
     /// A block (stitch), a counter (stitch.triangles), or a counter's own name (triangles)
     name: Option<String>,
 }
 
+/// What is to be said of a row.
+struct Entry {
+    block: Block,
+    name: String,
+    measure: Measure,
+    meaning: &'static str,
+    law: &'static str,
+    /// Of arithmetic, the pieces that are counted.
+    pieces: Vec<&'static str>,
+}
+
 pub(crate) fn run(args: &Args) -> Result<()> {
+    let all = entries();
     let chosen: Vec<_> = match &args.name {
-        None => DECLARATIONS.iter().collect(),
-        Some(name) => DECLARATIONS.iter().filter(|d| matches(d, name)).collect(),
+        None => all.iter().collect(),
+        Some(name) => all.iter().filter(|entry| entry.matches(name)).collect(),
     };
     match (&args.name, chosen.is_empty()) {
-        (Some(name), true) => Err(unknown(name)),
+        (Some(name), true) => Err(unknown(name, &all)),
         _ => print::print(&text(&chosen)),
     }
 }
 
-fn full_name(declared: &Declaration) -> String {
-    format!("{}.{}", declared.block.name(), declared.name)
+/// Every row of every unit, in the order of reports.
+fn entries() -> Vec<Entry> {
+    let mut entries: Vec<_> = DECLARATIONS
+        .iter()
+        .map(|d| Entry {
+            block: d.block,
+            name: d.name.to_owned(),
+            measure: d.measure,
+            meaning: d.meaning,
+            law: d.law,
+            pieces: Vec::new(),
+        })
+        .collect();
+    for unit in [Unit::Hybrid, Unit::Triangles] {
+        let mut chain = chain(unit);
+        for stage in &mut chain {
+            stage.shape.lanes = 2; // any block may have more than one
+        }
+        for k in 0..chain.len() {
+            for entry in standard_entries(&chain, k) {
+                // A row of both units is one; what differs is the neighbours.
+                if !entries.iter().any(|e| (e.block, &e.name) == (entry.block, &entry.name)) {
+                    entries.push(entry);
+                }
+            }
+        }
+    }
+    entries.push(Entry {
+        block: Block::Unit,
+        name: ELAPSED.name.to_owned(),
+        measure: ELAPSED.measure,
+        meaning: ELAPSED.meaning,
+        law: ELAPSED.law,
+        pieces: Vec::new(),
+    });
+    entries.sort_by_key(|entry| entry.block); // keeps the order within a block
+    entries
 }
 
-/// A name stands for itself and for everything below it: `link.bytes` for `link.bytes.total`.
-fn matches(declared: &Declaration, name: &str) -> bool {
-    let below = |known: &str| {
-        known.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+fn standard_entries(chain: &[Stage], k: usize) -> impl Iterator<Item = Entry> {
+    let block = chain[k].block;
+    let computes = PIECES.iter().any(|piece| piece.block == block);
+    let rows = standard::rows(chain, k);
+    rows.filter(move |(_, row)| computes || !row.quantity.is_arithmetic()).map(
+        move |(name, row)| {
+            let (measure, meaning, law) = (row.measure, row.meaning, row.law);
+            Entry { block, name, measure, meaning, law, pieces: pieces(block, row.quantity) }
+        },
+    )
+}
+
+/// What of a block's arithmetic has operations of this kind.
+fn pieces(block: Block, kind: Quantity) -> Vec<&'static str> {
+    let config = Config::default();
+    let has = |piece: &&tessim::unit::arithmetic::Piece| {
+        let ops = piece.once(&config);
+        let count = match kind {
+            Quantity::Add => ops.add,
+            Quantity::Mul => ops.mul,
+            Quantity::Compare => ops.compare,
+            _ => 0, // the bits are of the same pieces
+        };
+        piece.block == block && count > 0
     };
-    below(&full_name(declared)) || below(declared.name)
+    PIECES.iter().filter(has).map(|piece| piece.meaning).collect()
 }
 
-fn unknown(name: &str) -> Error {
-    let blocks = DECLARATIONS.iter().map(|d| d.block.name().to_owned());
-    let own = DECLARATIONS.iter().map(|d| d.name.to_owned());
+impl Entry {
+    fn full_name(&self) -> String {
+        format!("{}.{}", self.block.name(), self.name)
+    }
+
+    /// A name stands for itself and for everything below it: `link.bytes` for `link.bytes.total`.
+    fn matches(&self, name: &str) -> bool {
+        let below = |known: &str| {
+            known.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        below(&self.full_name()) || below(&self.name)
+    }
+}
+
+fn unknown(name: &str, entries: &[Entry]) -> Error {
+    let blocks = entries.iter().map(|e| e.block.name().to_owned());
+    let own = entries.iter().map(|e| e.name.clone());
     let nearest = blocks
-        .chain(DECLARATIONS.iter().map(full_name))
+        .chain(entries.iter().map(Entry::full_name))
         .chain(own)
         .map(|known| (strsim::jaro_winkler(name, &known), known))
         .reduce(|best, next| if next.0 > best.0 { next } else { best })
@@ -49,16 +134,18 @@ fn unknown(name: &str) -> Error {
     Error::Usage(format!("unknown counter `{name}`; did you mean `{nearest}`?"))
 }
 
-fn text(declarations: &[&Declaration]) -> String {
-    let width = declarations.iter().map(|d| full_name(d).len()).max().unwrap_or(0);
+fn text(entries: &[&Entry]) -> String {
+    let width = entries.iter().map(|entry| entry.full_name().len()).max().unwrap_or(0);
     let mut text = String::new();
-    for declared in declarations {
-        let measure = declared.measure.to_string();
-        let (name, meaning) = (full_name(declared), declared.meaning);
+    for entry in entries {
+        let (name, measure) = (entry.full_name(), entry.measure.to_string());
         let mut line = |line: String| writeln!(text, "{line}").expect("a String takes everything");
-        line(format!("{name:width$}  {measure:7}  {meaning}"));
-        if !declared.law.is_empty() {
-            line(format!("{:width$}  {:7}  law: {}", "", "", declared.law));
+        line(format!("{name:width$}  {measure:7}  {}", entry.meaning));
+        for piece in &entry.pieces {
+            line(format!("{:width$}  {:7}  of {piece}", "", ""));
+        }
+        if !entry.law.is_empty() {
+            line(format!("{:width$}  {:7}  law: {}", "", "", entry.law));
         }
     }
     text

@@ -14,7 +14,7 @@ use tessim::error::{Error, Result};
 use tessim::output::folder::ResultFolder;
 use tessim::output::mesh::{MeshFile, MeshForm};
 use tessim::output::summary::{DataFile, Provenance};
-use tessim::output::{counters, summary, table};
+use tessim::output::{counters, occupancy, summary, table};
 use tessim::report::Report;
 use tessim::sink::{NoMesh, Sink};
 use tessim::trace::command::{Command, Header};
@@ -23,7 +23,8 @@ use tessim::unit::simulate;
 
 /// Run a trace through a unit
 ///
-/// Prints a table; with --out writes config.toml, counters.csv, summary.json and the mesh.
+/// Prints a table; with --out writes config.toml, counters.csv, summary.json, and what was asked
+/// for: the mesh, and with an engine the occupancy of the FIFOs.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  tessim run traces/teapot.jsonl --set level.level=8\n  \
                         tessim run traces/teapot.jsonl --out result --mesh ply --frame 0")]
@@ -169,5 +170,11 @@ fn write(folder: &ResultFolder, report: &Report, summary: &str) -> Result<()> {
     let written = counters::write(report, &mut csv);
     written.map_err(|error| Error::system(Path::new("counters.csv"), error))?;
     folder.write("counters.csv", &csv)?;
+    if !report.occupancy.is_empty() {
+        let mut csv = Vec::new();
+        let written = occupancy::write(report, &mut csv);
+        written.map_err(|error| Error::system(Path::new("occupancy.csv"), error))?;
+        folder.write("occupancy.csv", &csv)?;
+    }
     folder.write("summary.json", summary.as_bytes())
 }

@@ -15,7 +15,7 @@ use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
 
 /// Bytes of a command's header.
-const COMMAND: u64 = 8;
+pub const COMMAND: u64 = 8;
 /// Bytes of a matrix.
 const MATRIX: u64 = 64;
 /// Bytes of a float.

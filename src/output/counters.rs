@@ -18,14 +18,14 @@ pub fn write(report: &Report, out: impl Write) -> std::io::Result<()> {
     let unit = unit_name(report.config.unit);
     for (number, frame) in report.frames.iter().enumerate() {
         let number = number.to_string();
-        for declared in report.declarations() {
+        for row in report.rows(frame) {
             csv.write_record([
                 &number,
                 unit,
-                declared.block.name(),
-                declared.name,
-                &frame.get(declared.counter).to_string(),
-                &declared.measure.to_string(),
+                row.block.name(),
+                &row.name,
+                &row.value.to_string(),
+                &row.measure.to_string(),
             ])?;
         }
     }
@@ -45,22 +45,31 @@ pub const fn unit_name(unit: Unit) -> &'static str {
 mod tests {
     use super::*;
     use crate::config::Config;
+    use crate::output::timed_report;
+    use crate::report::Frame;
     use rtl_model::counter::{Block, Counter, Counters};
+
+    fn csv(report: &Report) -> String {
+        let mut text = Vec::new();
+        write(report, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    }
 
     #[test]
     fn every_counter_of_the_units_blocks_is_a_row_in_every_frame() {
         let mut second = Counters::default();
         second.add(Counter::TracePatches, 32);
+        let frame = |counters| Frame { counters, ..Frame::default() };
         let report = Report {
             config: Config::default(),
             blocks: &[Block::Trace, Block::Clip],
-            frames: vec![Counters::default(), second],
+            chain: Vec::new(),
+            frames: vec![frame(Counters::default()), frame(second)],
+            occupancy: Vec::new(),
             host_link_bytes: 0,
         };
-        let mut text = Vec::new();
-        write(&report, &mut text).unwrap();
         assert_eq!(
-            String::from_utf8(text).unwrap(),
+            csv(&report),
             "frame,unit,block,counter,value,measure\n\
              0,hybrid,trace,frames,0,count\n\
              0,hybrid,trace,draws,0,count\n\
@@ -73,6 +82,58 @@ mod tests {
              1,hybrid,clip,patches.in,0,count\n\
              1,hybrid,clip,patches.culled,0,count\n"
         );
+    }
+
+    #[test]
+    fn a_block_of_the_chain_has_its_standard_rows_after_its_own() {
+        let rows = csv(&timed_report());
+        let of = |start: &str| -> Vec<String> {
+            let rows = rows.lines().filter_map(|row| row.strip_prefix(start));
+            rows.map(str::to_owned).collect()
+        };
+        assert_eq!(
+            of("1,hybrid,stitch,"),
+            [
+                "triangles,0,count",
+                "triangles.degenerate,0,count",
+                "tokens.in,1,count",
+                "tokens.out,4,count",
+                "ops.add,4,count",
+                "ops.add.bits,32,bits",
+                "ops.mul,2,count",
+                "ops.mul.bits,30,bits",
+                "ops.compare,1,count",
+                "ops.compare.bits,8,bits",
+                "fifo.peak,1,entries",
+                "cycles.busy,95,cycles",
+                "cycles.starved,4,cycles",
+                "cycles.starved.by.link,4,cycles",
+                "cycles.blocked,1,cycles",
+                "cycles.blocked.by.vertex_shader,1,cycles",
+                "cycles.total,100,cycles",
+            ]
+        );
+        assert!(rows.ends_with("1,hybrid,unit,cycles.total,100,cycles\n"));
+        assert_eq!(
+            of("0,hybrid,vertex_shader,cycles.blocked"),
+            [",60,cycles", ".by.order,60,cycles"]
+        );
+        assert_eq!(of("0,hybrid,vertex_shader,cycles.starved.by.port"), [",15,cycles"]);
+        assert!(of("0,hybrid,link,ops").is_empty() && of("0,hybrid,link,fifo").is_empty());
+    }
+
+    #[test]
+    fn without_an_engine_exactly_the_rows_of_time_are_missing() {
+        let timed = timed_report();
+        let mut untimed = timed.clone();
+        untimed.frames.iter_mut().for_each(|frame| frame.times = None);
+        untimed.occupancy.clear();
+        untimed.check();
+        let of_time = |row: &&str| row.contains(",cycles.") || row.contains(",fifo.peak,");
+        let timed = csv(&timed);
+        let rest: Vec<_> = timed.lines().filter(|row| !of_time(row)).collect();
+        assert!(rest.len() + 2 * 10 < timed.lines().count());
+        assert_eq!(csv(&untimed).lines().collect::<Vec<_>>(), rest);
     }
 
     #[test]

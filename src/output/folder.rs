@@ -14,7 +14,7 @@ use tempfile::{Builder, TempDir};
 pub const ALWAYS: [&str; 3] = ["config.toml", "counters.csv", "summary.json"];
 
 /// What it may hold besides.
-const SOMETIMES: [&str; 4] = ["mesh.ply", "mesh.obj", "mesh.svg", "timeline.json"];
+const SOMETIMES: [&str; 5] = ["occupancy.csv", "mesh.ply", "mesh.obj", "mesh.svg", "timeline.json"];
 
 /// A result folder under construction.
 #[derive(Debug)]

@@ -12,8 +12,14 @@ pub mod file;
 pub mod folder;
 pub mod mesh;
 pub mod obj;
+pub mod occupancy;
 pub mod ply;
 pub mod space;
 pub mod summary;
 pub mod svg;
 pub mod table;
+
+#[cfg(test)]
+mod sample;
+#[cfg(test)]
+pub(crate) use sample::timed_report;

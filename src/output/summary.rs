@@ -2,8 +2,8 @@
 //! up rows: totals, rates with their units, shares, and the hashes that reproduce it.
 
 use super::counters::unit_name;
-use crate::report::Report;
-use rtl_model::counter::{Block, Counter, Counters};
+use crate::report::{Frame, Report};
+use rtl_model::counter::{Block, Counter};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -35,16 +35,16 @@ pub struct DataFile {
 /// The text of `summary.json`.
 #[must_use]
 pub fn text(report: &Report, provenance: &Provenance) -> String {
-    let totals = report.totals();
+    let whole = report.whole();
     let value = json!({
         "tessim": env!("CARGO_PKG_VERSION"),
         "trace": provenance,
         "unit": unit_name(report.config.unit),
-        "engine": report.config.engine.name(),
+        "engine": report.config.engine,
         "frames": report.frames.len(),
-        "totals": totals_by_name(report, &totals),
-        "rates": rates(report, &totals),
-        "shares": shares(report, &totals),
+        "totals": totals_by_name(report, &whole),
+        "rates": rates(report, &whole),
+        "shares": shares(report, &whole),
     });
     let mut text = serde_json::to_string_pretty(&value).expect("names and numbers are JSON");
     text.push('\n');
@@ -60,11 +60,11 @@ pub fn is_summary(path: &Path) -> bool {
         .is_some_and(|summary| summary.get("tessim").is_some_and(Value::is_string))
 }
 
-fn totals_by_name(report: &Report, totals: &Counters) -> Value {
-    let named = report.declarations().map(|declared| {
-        let name = format!("{}.{}", declared.block.name(), declared.name);
-        (name, totals.get(declared.counter).into())
-    });
+fn totals_by_name(report: &Report, whole: &Frame) -> Value {
+    let named = report
+        .rows(whole)
+        .into_iter()
+        .map(|row| (format!("{}.{}", row.block.name(), row.name), row.value.into()));
     Value::Object(named.collect())
 }
 
@@ -74,13 +74,14 @@ pub fn ratio(of: u64, per: u64) -> Option<f64> {
     (per != 0).then(|| of as f64 / per as f64)
 }
 
-fn rates(report: &Report, totals: &Counters) -> Value {
+fn rates(report: &Report, whole: &Frame) -> Value {
+    let totals = &whole.counters;
     let link = totals.get(Counter::LinkTotal);
     let triangles = totals.get(Counter::EmitTriangles);
     let patches = totals.get(Counter::TracePatches);
     let frames = report.frames.len() as u64;
     let rate = |of, per, unit: &str| json!({ "value": ratio(of, per), "unit": unit });
-    json!({
+    let mut rates = json!({
         "link_bytes_per_triangle": rate(link, triangles, "bytes/triangle"),
         "link_bytes_per_triangle_if_the_host_tessellated":
             rate(report.host_link_bytes, triangles, "bytes/triangle"),
@@ -90,10 +91,21 @@ fn rates(report: &Report, totals: &Counters) -> Value {
         "triangles_per_frame": rate(triangles, frames, "triangles/frame"),
         "vertices_per_triangle":
             rate(totals.get(Counter::EmitVertices), triangles, "vertices/triangle"),
-    })
+    });
+    if let Some(times) = &whole.times {
+        let (cycles, clock) = (times.elapsed, u64::from(report.config.clock_mhz));
+        let per_second = ratio(triangles, cycles).map(|rate| rate * clock as f64 * 1e6);
+        rates["cycles_per_triangle"] = rate(cycles, triangles, "cycles/triangle");
+        rates["triangles_per_cycle"] = rate(triangles, cycles, "triangles/cycle");
+        rates["triangles_per_second"] = json!({ "value": per_second, "unit": "triangles/s" });
+        rates["time"] = rate(cycles, 1000 * clock, "ms");
+        rates["clock"] = json!({ "value": clock, "unit": "MHz" });
+    }
+    rates
 }
 
-fn shares(report: &Report, totals: &Counters) -> Value {
+fn shares(report: &Report, whole: &Frame) -> Value {
+    let totals = &whole.counters;
     let mut shares = Map::new();
     let mut share = |name: String, of, per| {
         shares.insert(name, ratio(of, per).into());
@@ -116,6 +128,13 @@ fn shares(report: &Report, totals: &Counters) -> Value {
             share(format!("{name} of patches"), totals.get(counter), patches);
         }
     }
+    let times = whole.times.iter().flat_map(|times| &times.stages);
+    for (stage, t) in report.chain.iter().zip(times) {
+        let block = stage.block.name();
+        share(format!("{block} busy (utilisation) of its cycles"), t.busy, t.total);
+        share(format!("{block} starved of its cycles"), t.starved + t.starved_by_port, t.total);
+        share(format!("{block} blocked of its cycles"), t.blocked + t.blocked_by_order, t.total);
+    }
     Value::Object(shares)
 }
 
@@ -123,6 +142,8 @@ fn shares(report: &Report, totals: &Counters) -> Value {
 mod tests {
     use super::*;
     use crate::config::Config;
+    use crate::output::timed_report;
+    use rtl_model::counter::Counters;
 
     #[test]
     fn a_summary_knows_itself_and_divides_by_nothing() {
@@ -130,8 +151,14 @@ mod tests {
         counters.add(Counter::LinkTotal, 300);
         counters.add(Counter::EmitTriangles, 8);
         let blocks = &[Block::Link, Block::Clip, Block::Emit];
-        let (config, frames) = (Config::default(), vec![counters]);
-        let report = Report { config, blocks, frames, host_link_bytes: 100 };
+        let report = Report {
+            config: Config::default(),
+            blocks,
+            chain: Vec::new(),
+            frames: vec![Frame { counters, ..Frame::default() }],
+            occupancy: Vec::new(),
+            host_link_bytes: 100,
+        };
         let text = text(&report, &Provenance::default());
         let value: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["totals"]["link.bytes.total"], 300);
@@ -140,6 +167,8 @@ mod tests {
         assert_eq!(value["shares"]["patches clipped of patches"], Value::Null);
         assert_eq!(value["shares"]["link.bytes.commands of link bytes"], 0.0);
         assert!(value["totals"].get("stitch.triangles").is_none());
+        assert_eq!(value["engine"], "none");
+        assert!(value["rates"].get("time").is_none());
 
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("summary.json");
@@ -147,5 +176,27 @@ mod tests {
         assert!(is_summary(&path));
         std::fs::write(&path, "{\"name\":\"tessim\"}").unwrap();
         assert!(!is_summary(&path));
+    }
+
+    #[test]
+    fn a_timed_run_has_rates_at_its_clock_and_shares_of_its_cycles() {
+        let text = text(&timed_report(), &Provenance::default());
+        let value: Value = serde_json::from_str(&text).unwrap();
+        let rate = |name: &str| value["rates"][name]["value"].as_f64().unwrap();
+        // Two frames of 100 cycles and 4 triangles at 2 GHz.
+        assert_eq!(rate("cycles_per_triangle"), 25.0);
+        assert_eq!(rate("triangles_per_cycle"), 0.04);
+        assert_eq!(rate("triangles_per_second"), 8e7);
+        assert_eq!(rate("time"), 1e-4);
+        let totals = &value["totals"];
+        assert_eq!(totals["unit.cycles.total"], 200);
+        assert_eq!(totals["stitch.fifo.peak"], 2, "the greatest of 2 and 1");
+        assert_eq!(totals["stitch.ops.mul.bits"], 60);
+        assert_eq!(totals["vertex_shader.cycles.starved"], 240);
+        assert_eq!(totals["vertex_shader.cycles.starved.by.stitch"], 210);
+        let shares = &value["shares"];
+        assert_eq!(shares["stitch busy (utilisation) of its cycles"], 0.95);
+        assert_eq!(shares["vertex_shader starved of its cycles"], 0.4);
+        assert_eq!(shares["vertex_shader blocked of its cycles"], 0.2);
     }
 }

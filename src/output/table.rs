@@ -1,26 +1,29 @@
 //! The table that a run prints: what crossed the link, what became of the patches, what came out,
-//! and what it means, on one screen.
+//! where the cycles went, and what it means, on one screen.
+
+mod time;
 
 use super::counters::unit_name;
 use super::summary::ratio;
-use crate::config::Engine;
-use crate::report::Report;
-use rtl_model::counter::{Block, Counter, Counters};
+use crate::report::{Frame, Report};
+use rtl_model::counter::{Block, Counter, Counters, DECLARATIONS};
 use std::fmt::Write;
 
 /// Renders the table, with ANSI styles; whoever prints it strips them where they do not belong.
 #[must_use]
 pub fn text(report: &Report, title: &str) -> String {
-    let totals = report.totals();
-    let mut table = Table { text: String::new(), value_width: value_width(&totals) };
+    let whole = report.whole();
+    let totals = &whole.counters;
+    let mut table = Table { text: String::new(), value_width: value_width(&whole) };
     let unit = unit_name(report.config.unit);
     let frames = report.frames.len();
     let plural = if frames == 1 { "" } else { "s" };
     table.line(&format!("{BOLD}{}{PLAIN}: unit {unit}, {frames} frame{plural}", printable(title)));
-    link(&mut table, report, &totals);
-    patches(&mut table, report, &totals);
-    made(&mut table, report, &totals);
-    verdict(&mut table, report, &totals);
+    link(&mut table, report, totals);
+    patches(&mut table, report, totals);
+    made(&mut table, report, totals);
+    time::section(&mut table, report, &whole);
+    verdict(&mut table, report, &whole);
     table.text
 }
 
@@ -106,24 +109,23 @@ fn made(table: &mut Table, report: &Report, totals: &Counters) {
     }
 }
 
-fn verdict(table: &mut Table, report: &Report, totals: &Counters) {
+fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
     table.section("verdict");
+    let totals = &whole.counters;
     let triangles = totals.get(Counter::EmitTriangles);
     let total = totals.get(Counter::LinkTotal);
     table.rate("link bytes per triangle", ratio(total, triangles), "");
     let times = ratio(report.host_link_bytes, total);
     let times = times.map_or_else(String::new, |times| format!("  {times:.1} times as many"));
     table.rate("  if the host tessellated", ratio(report.host_link_bytes, triangles), &times);
-    match report.config.engine {
-        Engine::Timed | Engine::Stepped | Engine::None => {
-            table.line("  what binds the run: no engine, so no cycles");
-        }
-    }
+    time::verdict(table, report, whole);
 }
 
-/// Wide enough for the largest counter, and for a heading's worth of air.
-fn value_width(totals: &Counters) -> usize {
-    let largest = rtl_model::counter::DECLARATIONS.iter().map(|d| totals.get(d.counter)).max();
+/// Wide enough for the largest counter and the cycles, and for a heading's worth of air.
+fn value_width(whole: &Frame) -> usize {
+    let counters = DECLARATIONS.iter().map(|d| whole.counters.get(d.counter));
+    let elapsed = whole.times.as_ref().map(|times| times.elapsed);
+    let largest = counters.chain(elapsed).max();
     grouped(largest.unwrap_or(0)).len().max(10)
 }
 
@@ -151,6 +153,8 @@ pub fn printable(title: &str) -> String {
 mod tests {
     use super::*;
     use crate::config::Config;
+    use crate::output::timed_report;
+    use rtl_model::time::FrameTimes;
 
     #[test]
     fn a_table_is_aligned_and_short() {
@@ -161,10 +165,16 @@ mod tests {
         counters.add(Counter::LevelPatches, 16);
         counters.add(Counter::EmitTriangles, 1_234_567);
         let blocks = &[Block::Link, Block::Level, Block::Emit];
-        let (config, frames) = (Config::default(), vec![counters]);
-        let report = Report { config, blocks, frames, host_link_bytes: 81920 };
+        let report = Report {
+            config: Config::default(),
+            blocks,
+            chain: Vec::new(),
+            frames: vec![Frame { counters, ..Frame::default() }],
+            occupancy: Vec::new(),
+            host_link_bytes: 81920,
+        };
         let styled = text(&report, "tea\x1b[31mpot");
-        let plain = [BOLD, DIM, PLAIN].iter().fold(styled, |text, s| text.replace(s, ""));
+        let plain = plain(&styled);
         let expected = "\
 tea[31mpot: unit hybrid, 1 frame
 
@@ -186,6 +196,64 @@ verdict
   what binds the run: no engine, so no cycles
 ";
         assert_eq!(plain, expected);
+    }
+
+    fn plain(styled: &str) -> String {
+        [BOLD, DIM, PLAIN].iter().fold(styled.to_owned(), |text, s| text.replace(s, ""))
+    }
+
+    /// From a heading on.
+    fn from(text: &str, heading: &str) -> String {
+        text[text.find(heading).expect("the heading")..].to_owned()
+    }
+
+    #[test]
+    fn a_timed_run_says_where_the_cycles_went_and_what_binds_it() {
+        let text = plain(&text(&timed_report(), "x"));
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        let expected = "\
+time
+  elapsed cycles                     200
+  cycles per triangle             25.000
+  milliseconds at 2000 MHz         0.000
+  block             busy  starved  blocked    fifo peak   waits for
+  link            10.0 %    0.0 %   90.0 %            -   stitch
+  stitch          95.0 %    4.0 %    1.0 %       2 of 4   link, vertex_shader
+  vertex_shader   40.0 %   40.0 %   20.0 %       1 of 4   stitch, order, port
+
+verdict
+  link bytes per triangle          0.000
+    if the host tessellated        0.000
+  what binds the run: stitch, busy 95.0 % of the time
+    upstream waits for it: link blocked 90.0 % by stitch
+    downstream starves: vertex_shader starved 35.0 % by stitch
+";
+        assert_eq!(from(&text, "time\n"), expected);
+    }
+
+    #[test]
+    fn the_verdict_follows_from_the_numbers() {
+        let says = |change: fn(&mut FrameTimes), expected: &[&str]| {
+            let mut report = timed_report();
+            for frame in &mut report.frames {
+                change(frame.times.as_mut().expect("it is timed"));
+            }
+            let text = from(&plain(&text(&report, "x")), "  what binds the run: ");
+            let said: Vec<_> = text.lines().collect();
+            assert_eq!(said.len(), expected.len(), "{text}");
+            for (said, expected) in said.iter().zip(expected) {
+                assert!(said.contains(expected), "{said}: {expected}");
+            }
+        };
+        let drain = ["latency", "even stitch, the busiest, is busy only 49.0 %", "draining"];
+        says(|t| t.stages[1].busy = 49, &drain);
+        let first = ["link, busy 95.0 %", "downstream starves: vertex_shader starved 35.0 %"];
+        says(|t| t.stages[0].busy = 95, &first); // the first of equals, with nobody before it
+        let last = ["vertex_shader, busy 96.0 %", "upstream waits for it: stitch blocked 1.0 %"];
+        says(|t| t.stages[2].busy = 288, &last);
+        let alone = ["stitch", "upstream hardly waits for it", "downstream hardly starves"];
+        says(|t| (t.stages[0].blocked, t.stages[2].starved) = (0, 0), &alone);
+        says(|t| t.stages.iter_mut().for_each(|s| s.total = 0), &["nothing ran"]);
     }
 
     #[test]

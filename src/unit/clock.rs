@@ -146,7 +146,8 @@ impl Clock {
         while payload > 0 {
             let part = payload.min(self.parcel_max());
             // A vertex comes out with the parcel that completes its share.
-            let later = (u128::from(vertices) * u128::from(payload - part)).div_ceil(payload.into());
+            let later =
+                (u128::from(vertices) * u128::from(payload - part)).div_ceil(payload.into());
             let count = vertices - later as u64;
             payload -= part;
             vertices -= count;

@@ -100,6 +100,11 @@ impl<'a> Pipeline<'a> {
         let parameters = self.placement.boundary() + columns + rows;
         let counters = &mut self.counters;
         counters.add(Counter::LevelPatches, 1);
+        match state.criterion {
+            level::Criterion::Flatness { .. } => counters.add(Counter::LevelFlatness, 1),
+            level::Criterion::EdgeLength { .. } => counters.add(Counter::LevelEdgeLength, 1),
+            level::Criterion::Fixed { .. } => {}
+        }
         counters.add(Counter::LevelClamped, events.clamped.into());
         counters.add(Counter::LevelNear, events.near.into());
         counters.add(Counter::LevelOverflows, events.overflows.into());
@@ -115,6 +120,7 @@ impl<'a> Pipeline<'a> {
         let counters = &mut self.counters;
         counters.add(Counter::EvaluateInvocations, cost.invocations);
         counters.add(Counter::EvaluateVertices, self.vertices.len() as u64);
+        counters.add(Counter::EvaluateStrips, strips(&self.placement));
         counters.add(Counter::EvaluateCurves, cost.curves);
         counters.add(Counter::EvaluateSteps, cost.steps);
         counters.add(Counter::EvaluateOverflows, cost.overflows);
@@ -151,6 +157,24 @@ impl<'a> Pipeline<'a> {
         counters.add(Counter::VertexShaderBytesIn, vertices * u64::from(shader.bytes_in + normal));
         counters.add(Counter::VertexShaderBytesOut, vertices * u64::from(shader.bytes_out));
     }
+}
+
+/// Strips of triangles of a patch: one where it is two triangles; else the gaps between the rows of
+/// the interior, the half-sides that have a segment in either row, and the segments across the
+/// centre of a side.
+fn strips(placement: &Placement) -> u64 {
+    let [columns, rows] = placement.interior();
+    if columns == 0 || rows == 0 {
+        return 1;
+    }
+    let grid = if columns > 1 { rows - 1 } else { 0 };
+    let below_two = placement.u.level() < Level::TWO;
+    let sides = placement.edges.iter().zip([columns, rows, columns, rows]).map(|(edge, along)| {
+        let inner_half = if below_two { 0 } else { (along - 1) / 2 };
+        let halves = if edge.half_segments() + inner_half > 0 { 2 } else { 0 };
+        halves + usize::from(edge.crosses_centre())
+    });
+    (grid + sides.sum::<usize>()) as u64
 }
 
 fn settings(config: &Config, position: Format) -> evaluate::Settings {

@@ -2,8 +2,10 @@
 //!
 //! Commands come in, triangles stream into a sink, counters come out. `run` carries out the
 //! commands, `frame` derives what is constant over a frame, `batch` collects patches and spreads
-//! them over the threads, `hybrid` is the unit's pipeline for one patch.
+//! them over the threads, `hybrid` is the unit's pipeline for one patch; `tokens` and `arithmetic`
+//! say from a frame's counters what flowed and what it took.
 
+pub mod arithmetic;
 mod batch;
 mod chain;
 mod clock;
@@ -11,13 +13,16 @@ mod frame;
 mod hybrid;
 pub mod pattern;
 mod run;
+mod tokens;
 
 use crate::config::{Config, Unit};
 use crate::error::Result;
 use crate::report::Report;
 use crate::sink::Sink;
 use crate::trace::command::Command;
-use rtl_model::counter::Block;
+use rtl_model::counter::standard::{Stage, Work};
+use rtl_model::counter::{Block, Counters};
+use rtl_model::time::{LaneOrder, Shape};
 
 pub use frame::FrameState;
 
@@ -65,5 +70,56 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
             Block::VertexShader,
         ],
         Unit::Triangles => &[Block::Trace, Block::Link, Block::Emit, Block::VertexShader],
+    }
+}
+
+/// The blocks of a unit that time is laid over, in the order of the data.
+#[must_use]
+pub fn chain(unit: Unit) -> Vec<Stage> {
+    let blocks: &[Block] = match unit {
+        Unit::Hybrid => &[
+            Block::Link,
+            Block::Memory,
+            Block::Transform,
+            Block::Port,
+            Block::Assemble,
+            Block::Clip,
+            Block::Backface,
+            Block::Level,
+            Block::Place,
+            Block::Evaluate,
+            Block::Stitch,
+            Block::Emit,
+            Block::VertexShader,
+        ],
+        Unit::Triangles => &[Block::Link, Block::VertexShader],
+    };
+    let order = LaneOrder::FirstFree;
+    let shape = Shape { depth: 4, in_flight: 2, lanes: 1, order, shares_port: false };
+    blocks.iter().map(|&block| Stage { block, shape }).collect()
+}
+
+/// What each block of the chain did in a frame with these counters.
+fn work(chain: &[Stage], counters: &Counters, config: &Config) -> Vec<Work> {
+    let of = |stage: &Stage| {
+        let [tokens_in, tokens_out] = tokens::of(config.unit, stage.block, counters);
+        let ops = arithmetic::of(stage.block, counters, config);
+        Work { tokens_in, tokens_out, ops }
+    };
+    chain.iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_timed_chain_is_of_the_units_blocks_in_their_order() {
+        for unit in [Unit::Hybrid, Unit::Triangles] {
+            let chain: Vec<_> = chain(unit).iter().map(|stage| stage.block).collect();
+            let blocks = blocks(unit).iter().copied().filter(|block| chain.contains(block));
+            assert_eq!(blocks.collect::<Vec<_>>(), chain);
+            assert!(chain.len() >= 2);
+        }
     }
 }

@@ -3,15 +3,16 @@
 use super::batch::{self, Batch, DrawState, Tally};
 use super::clock::{Clock, Fetch};
 use super::frame::FrameState;
-use super::{blocks, hybrid};
+use super::{blocks, chain, hybrid, work};
 use crate::config::{Config, Unit};
 use crate::error::{Error, Result};
 use crate::link::{self, Transfer};
-use crate::report::Report;
+use crate::report::{Frame as FrameReport, Report};
 use crate::shader::control_point;
 use crate::sink::{FrameInfo, Sink};
 use crate::trace::command::{Command, Draw, Frame, Points, Primitive, Tessellation};
 use glam::Mat4;
+use rtl_model::counter::standard::Stage;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
 use rtl_model::patch::Level;
@@ -40,7 +41,9 @@ pub(super) struct Run<'a> {
     scratch: Vec<[f32; 4]>,
     /// Of the current frame; before the first frame, what that frame will be charged with.
     counters: Counters,
-    frames: Vec<Counters>,
+    /// The blocks that are timed.
+    chain: Vec<Stage>,
+    frames: Vec<FrameReport>,
     host_link_bytes: u64,
 }
 
@@ -60,6 +63,7 @@ impl<'a> Run<'a> {
             fetched: 0,
             scratch: Vec::new(),
             counters: Counters::default(),
+            chain: chain(config.unit),
             frames: Vec::new(),
             host_link_bytes: 0,
         }
@@ -90,12 +94,16 @@ impl<'a> Run<'a> {
 
     pub(super) fn finish(mut self) -> Result<Report> {
         self.end_frame()?;
-        Ok(Report {
+        let report = Report {
             config: self.config.effective(),
             blocks: blocks(self.config.unit),
+            chain: self.chain,
             frames: self.frames,
+            occupancy: Vec::new(),
             host_link_bytes: self.host_link_bytes,
-        })
+        };
+        report.check();
+        Ok(report)
     }
 
     fn begin_frame(&mut self, command: &Command, frame: &Frame) -> Result<()> {
@@ -122,7 +130,9 @@ impl<'a> Run<'a> {
             let tally = tallies.next_if(|t| t.draw as usize == number).unwrap_or_default();
             self.host(transfer.with_triangles(tally.vertices, tally.triangles, self.config));
         }
-        self.frames.push(std::mem::take(&mut self.counters));
+        let counters = std::mem::take(&mut self.counters);
+        let work = work(&self.chain, &counters, self.config);
+        self.frames.push(FrameReport::new(&self.chain, counters, work, None));
         Ok(())
     }
 

@@ -1,0 +1,124 @@
+//! The table's part on time: cycles and their rates, where each block's cycles went, and what binds
+//! the run.
+
+use super::{BOLD, DIM, PLAIN, Table, ratio};
+use crate::report::{Frame, Report};
+use rtl_model::counter::Counter;
+use rtl_model::counter::standard::{Quantity, Stage, Work, rows};
+use rtl_model::time::{FrameTimes, StageTimes};
+
+/// Below this share of its cycles no block is called busy enough to bind a run.
+const BINDS: f64 = 0.5;
+
+/// A share that is worth a word.
+const NOTABLE: f64 = 0.01;
+
+/// Elapsed cycles and what follows from them, then a line a block.
+pub(super) fn section(table: &mut Table, report: &Report, whole: &Frame) {
+    let Some(times) = &whole.times else { return };
+    table.section("time");
+    table.row("elapsed cycles", times.elapsed, None);
+    let triangles = whole.counters.get(Counter::EmitTriangles);
+    table.rate("cycles per triangle", ratio(times.elapsed, triangles), "");
+    let clock = report.config.clock_mhz;
+    let milliseconds = ratio(times.elapsed, 1000 * u64::from(clock));
+    table.rate(&format!("milliseconds at {clock} MHz"), milliseconds, "");
+    let heads = ["block", "busy", "starved", "blocked", "fifo peak", "waits for"];
+    table.line(&format!("  {DIM}{}{PLAIN}", columns(heads)));
+    for (k, t) in times.stages.iter().enumerate() {
+        table.line(&format!("  {}", block(&report.chain, k, t)));
+    }
+}
+
+fn columns([block, busy, starved, blocked, fifo, waits]: [&str; 6]) -> String {
+    let line = format!("{block:13} {busy:>8} {starved:>8} {blocked:>8} {fifo:>12}   {waits}");
+    line.trim_end().to_owned()
+}
+
+fn block(chain: &[Stage], k: usize, t: &StageTimes) -> String {
+    let share = |part| ratio(part, t.total).map_or_else(|| "-".to_owned(), percent);
+    let shares = [t.busy, t.starved + t.starved_by_port, t.blocked + t.blocked_by_order];
+    let [busy, starved, blocked] = shares.map(share);
+    let Stage { block, shape } = chain[k];
+    let fifo = if k == 0 { "-".to_owned() } else { format!("{} of {}", t.fifo_peak, shape.depth) };
+    columns([block.name(), &busy, &starved, &blocked, &fifo, &waits(chain, k, t)])
+}
+
+/// What a block waits for, the longest wait first.
+fn waits(chain: &[Stage], k: usize, t: &StageTimes) -> String {
+    use Quantity::{BlockedByDownstream, BlockedByOrder, StarvedByPort, StarvedByUpstream};
+    let culprit =
+        |q| matches!(q, StarvedByUpstream | StarvedByPort | BlockedByDownstream | BlockedByOrder);
+    let mut culprits: Vec<(u64, String)> = rows(chain, k)
+        .filter(|(_, row)| culprit(row.quantity))
+        .filter_map(|(name, row)| {
+            let cycles = row.quantity.value(&Work::default(), Some(t))?;
+            let culprit = name.rsplit('.').next()?.to_owned();
+            (ratio(cycles, t.total)? >= NOTABLE).then_some((cycles, culprit))
+        })
+        .collect();
+    culprits.sort_by_key(|(cycles, _)| std::cmp::Reverse(*cycles));
+    let names: Vec<String> = culprits.into_iter().map(|(_, name)| name).collect();
+    names.join(", ")
+}
+
+/// What binds the run, and how its neighbours bear it.
+pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
+    const WHAT: &str = "  what binds the run: ";
+    let Some(times) = &whole.times else {
+        return table.line(&format!("{WHAT}no engine, so no cycles"));
+    };
+    let Some((k, utilisation)) = busiest(times) else {
+        return table.line(&format!("{WHAT}nothing, for nothing ran"));
+    };
+    let name = report.chain[k].block.name();
+    let busy = percent(utilisation);
+    if utilisation < BINDS {
+        table.line(&format!("{WHAT}latency, not the throughput of a block"));
+        table.line(&format!(
+            "    even {name}, the busiest, is busy only {busy} of the time: the rest"
+        ));
+        table.line("    is dependencies, and filling and draining the pipeline");
+        return;
+    }
+    table.line(&format!("{WHAT}{BOLD}{name}{PLAIN}, busy {busy} of the time"));
+    let neighbours = [upstream(&report.chain, times, k), downstream(&report.chain, times, k)];
+    for consequence in neighbours.into_iter().flatten() {
+        table.line(&format!("    {consequence}"));
+    }
+}
+
+/// The block with the highest utilisation, the first of equals, and that utilisation.
+fn busiest(times: &FrameTimes) -> Option<(usize, f64)> {
+    let shares = times.stages.iter().map(|t| ratio(t.busy, t.total));
+    largest(shares.enumerate().filter_map(|(k, share)| Some((k, share?))))
+}
+
+/// The largest share, the first of equals.
+fn largest(shares: impl Iterator<Item = (usize, f64)>) -> Option<(usize, f64)> {
+    shares.reduce(|best, next| if next.1 > best.1 { next } else { best })
+}
+
+/// Whether the block before `k` waits for it.
+fn upstream(chain: &[Stage], times: &FrameTimes, k: usize) -> Option<String> {
+    let before = k.checked_sub(1)?;
+    let t = &times.stages[before];
+    let blocked = ratio(t.blocked, t.total)?;
+    let verb = if blocked < NOTABLE { "hardly waits" } else { "waits" };
+    let (block, name) = (chain[before].block.name(), chain[k].block.name());
+    Some(format!("upstream {verb} for it: {block} blocked {} by {name}", percent(blocked)))
+}
+
+/// How long the hungriest of the blocks behind `k` starves.
+fn downstream(chain: &[Stage], times: &FrameTimes, k: usize) -> Option<String> {
+    let behind = times.stages.iter().enumerate().skip(k + 1);
+    let shares = behind.filter_map(|(i, t)| Some((i, ratio(t.starved, t.total)?)));
+    let (i, starved) = largest(shares)?;
+    let verb = if starved < NOTABLE { "hardly starves" } else { "starves" };
+    let [block, by] = [i, i - 1].map(|i| chain[i].block.name());
+    Some(format!("downstream {verb}: {block} starved {} by {by}", percent(starved)))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}

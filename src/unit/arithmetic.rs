@@ -1,0 +1,330 @@
+//! Arithmetic: how many additions, multiplications and comparisons each block needs, and how wide,
+//! from the counters of a frame and the formats of the configuration.
+//!
+//! Counted is what the blocks define, not what the simulator happens to do: no early exit, no
+//! shortcut of an estimate. A value that a definition needs twice is computed once. Free are what
+//! wires and carry inputs do: shifts, negation before an addition, rounding where a sum or product
+//! is formed anyway, and seeing from the top bits that a result does not fit. A multiplication by a
+//! small constant is its additions (3 x = 2 x + x). Addresses and loop counts are control.
+//!
+//! Divisions and roots are those of a multiplier and an 8-bit table, whose bits Newton's iteration
+//! doubles step by step: [`reciprocal`], [`quotient`], [`root`].
+
+mod level;
+
+use crate::config::{BackfaceMethod, Config, Scheme};
+use rtl_model::counter::standard::Ops;
+use rtl_model::counter::{Block, Counter as C, Counters};
+
+/// A piece of arithmetic: what is counted, how often a frame does it, and what once costs.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// The block.
+    pub block: Block,
+    /// What is counted, with its operations.
+    pub meaning: &'static str,
+    times: fn(&Frame<'_>) -> u64,
+    once: fn(Formats) -> Ops,
+}
+
+impl Piece {
+    /// What it costs to do it once.
+    #[must_use]
+    pub fn once(&self, config: &Config) -> Ops {
+        (self.once)(Formats::of(config))
+    }
+}
+
+/// Widths in bits.
+#[derive(Clone, Copy, Debug)]
+struct Formats {
+    /// A position.
+    w: u64,
+    /// A forward-difference register.
+    register: u64,
+    /// A screen coordinate.
+    screen: u64,
+}
+
+impl Formats {
+    fn of(config: &Config) -> Self {
+        let w = u64::from(config.position.width);
+        Self {
+            w,
+            register: w + u64::from(config.guard()) + 3,
+            screen: 16 + u64::from(config.emit.subpixel_bits),
+        }
+    }
+}
+
+/// A frame's counters and the configuration that they were counted under.
+struct Frame<'a> {
+    counters: &'a Counters,
+    config: &'a Config,
+}
+
+impl Frame<'_> {
+    fn get(&self, counter: C) -> u64 {
+        self.counters.get(counter)
+    }
+
+    /// The back-face tests, if they go by this method.
+    fn tested(&self, method: BackfaceMethod) -> u64 {
+        if self.config.backface.method == method { self.get(C::BackfaceTested) } else { 0 }
+    }
+
+    /// Curve points by de Casteljau. Boundary vertices are 2 V - T - 2 in each patch
+    /// (T = 2 V - B - 2), and only the rest is his in the mixed scheme.
+    fn curve_points(&self) -> u64 {
+        let [vertices, triangles] = [C::EvaluateVertices, C::StitchTriangles].map(|c| self.get(c));
+        let boundary = 2 * vertices - triangles - 2 * self.get(C::LevelPatches);
+        match self.config.evaluate.scheme {
+            Scheme::Forward => 0,
+            Scheme::Mixed => self.get(C::EvaluateInvocations) - boundary,
+            Scheme::DeCasteljau => self.get(C::EvaluateSteps),
+        }
+    }
+
+    /// Middles of curves: of the points evaluated, those that are neither corners, which are
+    /// copied, nor steps.
+    fn centres(&self) -> u64 {
+        let corners = 4 * self.get(C::LevelPatches);
+        self.get(C::EvaluateInvocations) - corners - self.get(C::EvaluateSteps)
+    }
+}
+
+/// Everything counted. Blocks without a line have no arithmetic of their own: link, memory and
+/// assemble move what they get; what a vertex shader computes is its program's.
+pub const PIECES: &[Piece] = &[
+    Piece {
+        block: Block::Transform,
+        meaning: "a control point times a 4 x 4 matrix in f32: 16 multiplications and 12 additions \
+                  of 24-bit significands",
+        times: |f| f.get(C::TransformInvocations),
+        once: |_| Ops::default().muls(16, 24, 24).adds(12, 24),
+    },
+    Piece {
+        block: Block::Port,
+        meaning: "a control point rounded to the position format: 4 increments of W bits, for want \
+                  of a sum that could take them",
+        times: |f| f.get(C::PortPoints),
+        once: |f| Ops::default().adds(4, f.w),
+    },
+    Piece {
+        block: Block::Clip,
+        meaning: "a patch against the clip volume: 16 points with 6 comparisons of W bits",
+        times: |f| if f.config.clip.enabled { f.get(C::ClipIn) } else { 0 },
+        once: |f| Ops::default().compares(16 * 6, f.w),
+    },
+    Piece {
+        block: Block::Backface,
+        meaning: "tangent_plane, a patch tested: 81 coefficients by convolution, 144 cross \
+                  products and 576 dot products of x, y, w, and their signs",
+        times: |f| f.tested(BackfaceMethod::TangentPlane),
+        once: tangent_plane,
+    },
+    Piece {
+        block: Block::Backface,
+        meaning: "net_facets, a patch tested: 36 determinants over the net's 39 differences that \
+                  they need, and their signs",
+        times: |f| f.tested(BackfaceMethod::NetFacets),
+        once: net_facets,
+    },
+    level::GRANT,
+    level::PROJECT,
+    level::FLATNESS,
+    level::EDGE_LENGTH,
+    Piece {
+        block: Block::Place,
+        meaning: "a patch's six levels, 24 bits: 8 comparisons to raise the interior's, 15 to find \
+                  those that are equal",
+        times: |f| f.get(C::LevelPatches),
+        once: |_| Ops::default().compares(8 + 15, 24),
+    },
+    Piece {
+        block: Block::Place,
+        meaning: "a distinct level: its reciprocal, 33 bits of quotient over 24, and the addition \
+                  that rounds level / 2 up",
+        times: |f| f.get(C::PlaceReciprocals),
+        once: |_| reciprocal(33).with(1, correction(33, 24)).adds(1, 24),
+    },
+    Piece {
+        block: Block::Place,
+        meaning: "a parameter: one addition of 33 bits, the reciprocal again or 1 - u",
+        times: |f| f.get(C::PlaceParameters),
+        once: |_| Ops::default().adds(1, 33),
+    },
+    Piece {
+        block: Block::Evaluate,
+        meaning: "a forward-difference step: 3 additions of a vec4, W + guard + 3 bits",
+        times: |f| f.get(C::EvaluateSteps) - f.curve_points(),
+        once: |f| Ops::default().adds(12, f.register),
+    },
+    Piece {
+        block: Block::Evaluate,
+        meaning: "a curve's two half-runs set up together: R^2 and R^3; for x y z w the cubic \
+                  coefficient and its product, and from each end two more coefficients, their \
+                  products and the sums D1, D2",
+        times: |f| f.get(C::EvaluateCurves) / 2,
+        once: set_up,
+    },
+    Piece {
+        block: Block::Evaluate,
+        meaning: "the middle of a curve, (a + d) + 3 (b + c): 4 additions of a vec4, W + 3 bits",
+        times: |f| f.centres(),
+        once: |f| Ops::default().adds(16, f.w + 3),
+    },
+    Piece {
+        block: Block::Evaluate,
+        meaning: "a curve point by de Casteljau: 1 - t, and 6 interpolations of a vec4, each 2 \
+                  multiplications by 17 bits and an addition",
+        times: |f| f.curve_points(),
+        once: |f| Ops::default().adds(1, 17).with(6, interpolation(f)),
+    },
+    Piece {
+        block: Block::Evaluate,
+        meaning: "a tangent plane: 10 de Casteljau triangles, Su and Sv, and four 3 x 3 minors \
+                  that share their 2 x 2 ones",
+        times: |f| f.get(C::EvaluateNormals),
+        once: plane,
+    },
+    Piece {
+        block: Block::Stitch,
+        meaning: "a triangle: the walk's error tested and moved, 8 bits each",
+        times: |f| f.get(C::StitchTriangles),
+        once: |_| Ops::default().adds(1, 8).compares(1, 8),
+    },
+    Piece {
+        block: Block::Emit,
+        meaning: "a vertex divided: w > 0, x + w and w - y, both times the viewport's size (15 \
+                  bits), one reciprocal of w, and two quotients",
+        times: |f| if f.config.emit.divide { f.get(C::EmitVertices) } else { 0 },
+        once: |f| {
+            let sides = Ops::default().compares(1, f.w).adds(2, f.w + 1).muls(2, f.w + 1, 15);
+            sides.with(1, reciprocal(f.w)).with(2, quotient(f.w + 15, f.w, f.screen))
+        },
+    },
+];
+
+/// The arithmetic of `block` in a frame with these counters; `None` where it has none of its own.
+pub(super) fn of(block: Block, counters: &Counters, config: &Config) -> Option<Ops> {
+    let frame = Frame { counters, config };
+    let formats = Formats::of(config);
+    let pieces = PIECES.iter().filter(|piece| piece.block == block);
+    pieces.fold(None, |sum, piece| {
+        let times = (piece.times)(&frame);
+        Some(sum.unwrap_or_default().with(times, (piece.once)(formats)))
+    })
+}
+
+/// Newton steps from the table's 8 bits to `bits`.
+const fn newton_steps(bits: u64) -> u64 {
+    bits.div_ceil(8).next_power_of_two().ilog2() as u64
+}
+
+/// 1 / d to `bits` bits: y (2 - d y), two multiplications and an addition a step.
+fn reciprocal(bits: u64) -> Ops {
+    let steps = newton_steps(bits);
+    Ops::default().muls(2 * steps, bits, bits).adds(steps, bits)
+}
+
+/// What makes a quotient exact: it times the divisor, and the rest.
+fn correction(quotient: u64, divisor: u64) -> Ops {
+    Ops::default().muls(1, quotient, divisor).adds(1, quotient + divisor)
+}
+
+/// An exactly rounded quotient, from a reciprocal as wide as the divisor.
+fn quotient(dividend: u64, divisor: u64, quotient: u64) -> Ops {
+    Ops::default().muls(1, dividend, divisor).with(1, correction(quotient, divisor))
+}
+
+/// The root of a `2 bits` wide square, rounded up: 1 / sqrt by Newton, y (3 - x y y) / 2, three
+/// multiplications and an addition a step; times x; and its square compared.
+fn root(bits: u64) -> Ops {
+    let steps = newton_steps(bits);
+    Ops::default().muls(3 * steps + 2, bits, bits).adds(steps, bits).compares(1, 2 * bits)
+}
+
+/// a (1 - t) + b t of a vec4.
+fn interpolation(f: Formats) -> Ops {
+    Ops::default().muls(8, f.w, 17).adds(4, f.w + 18)
+}
+
+/// `backface/tangent.rs`, its definition: no corners first, no estimate.
+fn tangent_plane(f: Formats) -> Ops {
+    // With their binomials, up to 9 and 6, s and the differences take 4 bits more than a position.
+    let (factor, normal, coefficient) = (f.w + 4, 2 * f.w + 9, 3 * f.w + 14);
+    let vectors = |n: u64| 3 * n; // x, y, w
+    Ops::default()
+        .adds(vectors(12 + 12), f.w + 1) // Su and Sv
+        .adds(vectors(12 + 6 + 6), factor) // of S, Su, Sv those with a binomial that 3 divides
+        .muls(144 * 6, factor, factor)
+        .adds(144 * 3 + vectors(144 - 36), normal)
+        .muls(576 * 3, factor, normal)
+        .adds(576 * 2 + 576 - 81, coefficient)
+        .compares(81, coefficient)
+}
+
+/// `net_facets` of `backface.rs`: 9 + 12 differences along the net, 18 across its facets.
+fn net_facets(f: Formats) -> Ops {
+    let (difference, minor, volume) = (f.w + 1, 2 * f.w + 3, 3 * f.w + 3);
+    let facet = Ops::default()
+        .muls(6, difference, difference)
+        .adds(3, minor)
+        .muls(3, f.w, minor)
+        .adds(2, volume)
+        .compares(1, volume);
+    Ops::default().adds(3 * (9 + 12 + 18), difference).with(36, facet)
+}
+
+/// `set_up` of `evaluate/forward.rs`: R has 32 bits, its powers 64, coefficients W + 4, sums of
+/// products W + 71.
+fn set_up(f: Formats) -> Ops {
+    let (coefficient, sum) = (f.w + 4, f.w + 71);
+    let end = Ops::default()
+        .adds(3 + 2, coefficient) // b = 3 (p + s - 2 q), c = 3 (q - p)
+        .muls(1, coefficient, 64)
+        .muls(1, coefficient, 32)
+        .adds(2 + 1, sum); // D1, D2; D3 is the cubic's own product
+    let component = Ops::default()
+        .adds(4, coefficient) // a = b3 - b0 + 3 (b1 - b2)
+        .muls(1, coefficient, 64)
+        .adds(1, sum) // 6 a h3
+        .with(2, end);
+    Ops::default().muls(1, 32, 32).muls(1, 64, 32).with(4, component)
+}
+
+/// `evaluate/normal.rs`: four rows and a column of points, four columns and a row of points.
+fn plane(f: Formats) -> Ops {
+    let (difference, minor) = (f.w + 1, 2 * f.w + 3);
+    Ops::default()
+        .adds(2, 17) // 1 - u, 1 - v
+        .with(10 * 6, interpolation(f))
+        .adds(2 * 4, difference)
+        .muls(6 * 2, difference, difference)
+        .adds(6, minor)
+        .muls(4 * 3, f.w, minor)
+        .adds(4 * 2, 3 * f.w + 5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn newton_doubles_the_bits_of_a_table() {
+        assert_eq!([8, 9, 16, 17, 32, 33, 64].map(newton_steps), [0, 1, 1, 2, 2, 3, 3]);
+        // 32 bits: two steps of y (2 - d y)
+        assert_eq!(reciprocal(32), Ops::default().muls(4, 32, 32).adds(2, 32));
+    }
+
+    #[test]
+    fn a_set_up_costs_what_its_formulas_say_at_32_bits() {
+        let once = set_up(Formats::of(&Config::default()));
+        // x y z w: a (4), 6 a h3 (1), and from each end b (3), c (2), D1 (2), D2 (1)
+        assert_eq!(once.add, 4 * (4 + 1 + 2 * (3 + 2 + 2 + 1)));
+        // R^2, R^3; x y z w: a h3, and from each end b h2, c R
+        assert_eq!(once.mul, 2 + 4 * (1 + 2 * 2));
+        assert_eq!(once.mul_bits, 32 * 32 + 64 * 32 + 4 * (36 * 64 + 2 * (36 * 64 + 36 * 32)));
+    }
+}

@@ -1,0 +1,53 @@
+//! Tokens: how many each block of the timed chain accepts and emits, from the counters of a frame.
+//!
+//! No engine is needed to know them, and an engine that ran is held against them. What one block
+//! emits the next accepts:
+//!
+//! ```text
+//!   link ─ commands, patches ─► memory ─ points ─► transform ─ points ─► port ─ points ─►
+//!   assemble ─ patches ─► clip, backface, level, place ─ patches ─► evaluate ─ strips ─►
+//!   stitch ─ triangles ─► emit ─ vertices ─► vertex shader
+//! ```
+
+use crate::config::Unit;
+use crate::link::COMMAND;
+use rtl_model::counter::{Block, Counter as C, Counters};
+
+/// Tokens that `block` accepts and emits in a frame with these counters.
+pub(super) fn of(unit: Unit, block: Block, counters: &Counters) -> [u64; 2] {
+    match unit {
+        Unit::Hybrid => hybrid(block, |counter| counters.get(counter)),
+        Unit::Triangles => triangles(block, |counter| counters.get(counter)),
+    }
+}
+
+fn hybrid(block: Block, get: impl Fn(C) -> u64) -> [u64; 2] {
+    // A patch is asked for by a token of its own.
+    let fetches = get(C::LinkCommands) / COMMAND + get(C::TracePatches);
+    let clipped = get(C::ClipIn) - get(C::ClipCulled);
+    match block {
+        Block::Link => [fetches; 2],
+        Block::Memory => [fetches, get(C::PortPoints)],
+        Block::Transform => [get(C::TransformInvocations); 2],
+        Block::Port => [get(C::PortPoints); 2],
+        Block::Assemble => [get(C::AssembleReceived), get(C::AssemblePatches)],
+        Block::Clip => [get(C::ClipIn), clipped],
+        Block::Backface => [get(C::BackfaceIn), get(C::BackfaceIn) - get(C::BackfaceCulled)],
+        Block::Level | Block::Place => [get(C::LevelPatches); 2],
+        Block::Evaluate => [get(C::LevelPatches), get(C::EvaluateStrips)],
+        Block::Stitch => [get(C::EvaluateStrips), get(C::StitchTriangles)],
+        Block::Emit => [get(C::StitchTriangles), get(C::EmitVertices)],
+        Block::VertexShader => [get(C::VertexShaderInvocations); 2],
+        Block::Trace | Block::Unit => [0; 2], // not of the chain
+    }
+}
+
+/// Where the host tessellates: commands in, and from the link on a token a vertex.
+fn triangles(block: Block, get: impl Fn(C) -> u64) -> [u64; 2] {
+    let vertices = get(C::VertexShaderInvocations);
+    match block {
+        Block::Link => [get(C::LinkCommands) / COMMAND, vertices],
+        Block::VertexShader => [vertices; 2],
+        _ => [0; 2], // not of the chain
+    }
+}

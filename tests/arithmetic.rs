@@ -1,0 +1,218 @@
+//! Tokens and arithmetic against counts by hand: one flat patch at level 4, and what each scheme
+//! and method adds to it.
+
+#![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
+
+use rtl_model::counter::Block;
+use rtl_model::counter::standard::{Ops, Work};
+use std::io::BufReader;
+use tessim::config::{BackfaceMethod, Config, Criterion, Normals, Scheme, Unit};
+use tessim::report::Report;
+use tessim::sink::NoMesh;
+use tessim::trace::read::Reader;
+
+/// A plane patch that faces the viewer, under a parallel projection.
+fn patch(set: impl Fn(&mut Config)) -> Report {
+    let points: Vec<_> = (0..16).map(|k| format!("[{},{},0]", k % 4, k / 4)).collect();
+    let identity = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+    let text = format!(
+        "{{\"tessim\":1}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":{identity},\
+         \"projection\":[0.1,0,0,0,0,0.1,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n\
+         {{\"points\":{{\"id\":0,\"xyz\":[{}]}}}}\n\
+         {{\"draw\":{{\"primitive\":\"patches\",\"points\":0,\"count\":1}}}}\n\
+         {{\"end\":{{}}}}\n",
+        points.join(",")
+    );
+    let mut config = Config::default();
+    config.level.level = Some(4.0);
+    set(&mut config);
+    let reader = Reader::new(BufReader::new(text.as_bytes()), "text", "traces");
+    tessim::simulate(reader.map(|l| Ok(l?.command)), &config, &mut NoMesh).unwrap()
+}
+
+fn work(report: &Report, block: Block) -> Work {
+    let k = report.chain.iter().position(|stage| stage.block == block).unwrap();
+    report.whole().work[k]
+}
+
+fn ops(report: &Report, block: Block) -> Ops {
+    work(report, block).ops.unwrap()
+}
+
+/// `[add, add.bits, mul, mul.bits, compare, compare.bits]`
+fn numbers(ops: Ops) -> [u64; 6] {
+    [ops.add, ops.add_bits, ops.mul, ops.mul_bits, ops.compare, ops.compare_bits]
+}
+
+#[test]
+fn one_patch_at_level_4_takes_the_operations_that_a_hand_counts() {
+    let report = patch(|_| {});
+    // 16 points, a 4 x 4 matrix each
+    let transform = [16 * 12, 16 * 12 * 24, 16 * 16, 16 * 16 * 576, 0, 0];
+    assert_eq!(numbers(ops(&report, Block::Transform)), transform);
+    // 4 coordinates of 32 bits
+    assert_eq!(numbers(ops(&report, Block::Port)), [64, 64 * 32, 0, 0, 0, 0]);
+    // 16 points, 6 planes
+    assert_eq!(numbers(ops(&report, Block::Clip)), [0, 0, 0, 0, 96, 96 * 32]);
+    // A fixed level: six levels of 64 bits against min and max, four comparisons of 24 bits.
+    assert_eq!(numbers(ops(&report, Block::Level)), [0, 0, 0, 0, 16, 12 * 64 + 4 * 24]);
+    // One distinct level: 3 Newton steps from 8 bits to 33, and the exact quotient's multiplication
+    // and addition; level / 2 rounded up. 16 parameters on the boundary, 3 along each of u and v.
+    let place = [
+        3 + 1 + 1 + 22,
+        3 * 33 + (33 + 24) + 24 + 22 * 33,
+        3 * 2 + 1,
+        6 * 33 * 33 + 33 * 24,
+        23,
+        23 * 24,
+    ];
+    assert_eq!(numbers(ops(&report, Block::Place)), place);
+    // Eleven curves: 4 edges, 4 columns of the net, 3 rows. From either end of each one step, then
+    // the middle. Registers of 32 + 20 + 3 bits.
+    let steps = 11 * 2 * 12;
+    // Per component a = b3 - b0 + 3 (b1 - b2), b and c of both ends: 4 + 2 * 5 of 36 bits; sums of
+    // products 1 + 2 * 3 of 103.
+    let set_up = [11 * 4 * 14, 11 * 4 * 7];
+    let middle = 11 * 4 * 4;
+    // R^2 and R^3; per component a h3 and both b h2 of 36 x 64, both c R of 36 x 32.
+    let products = 11 * (2 + 4 * 5);
+    let product_bits = 11 * (32 * 32 + 64 * 32 + 4 * (3 * 36 * 64 + 2 * 36 * 32));
+    let evaluate = [
+        steps + set_up[0] + set_up[1] + middle,
+        steps * 55 + set_up[0] * 36 + set_up[1] * 103 + middle * 35,
+        products,
+        product_bits,
+        0,
+        0,
+    ];
+    assert_eq!(numbers(ops(&report, Block::Evaluate)), evaluate);
+    // The same as figures: a formula on both sides could share a mistake.
+    assert_eq!(evaluate, [1364, 74_580, 242, 439_296, 0, 0]);
+    // 2 * 4 * 4 triangles
+    assert_eq!(numbers(ops(&report, Block::Stitch)), [32, 32 * 8, 0, 0, 32, 32 * 8]);
+    // 25 vertices: x + w, w - y; two products with the size; two Newton steps to 32 bits; two
+    // quotients of 47 over 32 bits, of 24 bits, each made exact; w > 0.
+    let emit = [
+        25 * (2 + 2 + 2),
+        25 * (2 * 33 + 2 * 32 + 2 * 56),
+        25 * (2 + 4 + 2 * 2),
+        25 * (2 * 33 * 15 + 4 * 32 * 32 + 2 * (47 * 32 + 24 * 32)),
+        25,
+        25 * 32,
+    ];
+    assert_eq!(numbers(ops(&report, Block::Emit)), emit);
+    let homogeneous = patch(|c| c.emit.divide = false);
+    assert_eq!(numbers(ops(&homogeneous, Block::Emit)), [0; 6], "nothing is divided");
+    let unclipped = patch(|c| c.clip.enabled = false);
+    assert_eq!(numbers(ops(&unclipped, Block::Clip)), [0; 6], "nothing is tested");
+    for block in [Block::Link, Block::Memory, Block::Assemble, Block::VertexShader] {
+        assert_eq!(work(&report, block).ops, None, "{} has no arithmetic", block.name());
+    }
+}
+
+#[test]
+fn back_face_tests_cost_their_definitions() {
+    let test = |method| patch(|c| c.backface.method = method);
+    assert_eq!(numbers(ops(&test(BackfaceMethod::Off), Block::Backface)), [0; 6]);
+    let tangent = numbers(ops(&test(BackfaceMethod::TangentPlane), Block::Backface));
+    // Differences 24 x 3; binomials 24 x 3; cross products 144 x 3 and their sums (144 - 36) x 3;
+    // dot products 576 x 2 and their sums 576 - 81. Widths 33, 36, 73, 110.
+    let adds = [72, 72, 144 * 3 + 108 * 3, 576 * 2 + 495];
+    assert_eq!(tangent[0], adds.iter().sum::<u64>());
+    assert_eq!(tangent[1], adds[0] * 33 + adds[1] * 36 + adds[2] * 73 + adds[3] * 110);
+    assert_eq!(tangent[2], 144 * 6 + 576 * 3);
+    assert_eq!(tangent[3], 144 * 6 * 36 * 36 + 576 * 3 * 36 * 73);
+    assert_eq!(tangent[4..], [81, 81 * 110]);
+    let facets = numbers(ops(&test(BackfaceMethod::NetFacets), Block::Backface));
+    assert_eq!([facets[0], facets[2], facets[4]], [3 * 39 + 36 * 5, 36 * 9, 36]);
+    let untested = patch(|c| c.position.clip_range_log2 = Some(0)); // saturated points
+    assert_eq!(ops(&untested, Block::Backface).mul, 0);
+}
+
+#[test]
+fn schemes_and_normals_cost_what_they_evaluate() {
+    let evaluate = |scheme| ops(&patch(|c| c.evaluate.scheme = scheme), Block::Evaluate);
+    // 6 interpolations of a vec4 a point: 12 of the boundary, 12 of the rows' ends, 9 inside.
+    let points = 12 + 12 + 9;
+    let casteljau = evaluate(Scheme::DeCasteljau);
+    assert_eq!((casteljau.add, casteljau.mul), (points * 25, points * 48));
+    assert_eq!(casteljau.mul_bits, points * 48 * 32 * 17);
+    // Four curves of the boundary by differences, 21 points inside.
+    let mixed = evaluate(Scheme::Mixed);
+    assert_eq!(mixed.mul, 4 * 22 + 21 * 48);
+    assert_eq!(mixed.add, 4 * (2 * 12 + 84 + 16) + 21 * 25);
+    let normals = |normals| ops(&patch(|c| c.evaluate.normals = normals), Block::Evaluate);
+    let [with, without] = [Normals::TangentPlane, Normals::Off].map(normals);
+    // 60 interpolations, 6 minors of 2 products, 4 of 3
+    assert_eq!(with.mul - without.mul, 25 * (60 * 8 + 12 + 12));
+    // Level 2 runs nothing: eight boundary points of which four are middles, a middle for each of
+    // four columns, one inside.
+    let two = patch(|c| c.level.level = Some(2.0));
+    assert_eq!(numbers(ops(&two, Block::Evaluate)), [9 * 16, 9 * 16 * 35, 0, 0, 0, 0]);
+    let one = patch(|c| c.level.level = Some(1.0));
+    assert_eq!(numbers(ops(&one, Block::Evaluate)), [0; 6]);
+}
+
+#[test]
+fn criteria_cost_the_pixels_that_they_look_at() {
+    let level = |criterion| {
+        let set = |c: &mut Config| {
+            (c.level.criterion, c.level.pixels, c.level.level) = (Some(criterion), Some(1.0), None);
+        };
+        ops(&patch(set), Block::Level)
+    };
+    let fixed = ops(&patch(|_| {}), Block::Level);
+    // Sixteen points: two products with the size, two Newton steps, two exact quotients.
+    let project = 16 * (2 + 4 + 2 * 2);
+    // A root of 41 bits: three steps of three products, times x, squared again.
+    let length = 24 * (2 + 3 * 3 + 2);
+    assert_eq!(level(Criterion::EdgeLength).mul, project + length + 8);
+    assert_eq!(level(Criterion::EdgeLength).compare, fixed.compare + 16 * 2 + 24 + 6);
+    // 25 squares of two products; 7 roots of 42 bits and 6 of 24 (two steps); the bound.
+    let bound = 6 + 2 * (1 + 6 + 2 + 8);
+    let flat = 25 * 2 + 7 * 11 + 6 * (1 + 8) + bound;
+    assert_eq!(level(Criterion::Flatness).mul, project + flat);
+}
+
+#[test]
+fn tokens_are_those_of_one_patch() {
+    let report = patch(|_| {});
+    let tokens: Vec<_> = report
+        .chain
+        .iter()
+        .map(|stage| {
+            let work = work(&report, stage.block);
+            (stage.block, work.tokens_in, work.tokens_out)
+        })
+        .collect();
+    let expected = [
+        (Block::Link, 4, 4), // three commands and a patch
+        (Block::Memory, 4, 16),
+        (Block::Transform, 16, 16),
+        (Block::Port, 16, 16),
+        (Block::Assemble, 16, 1),
+        (Block::Clip, 1, 1),
+        (Block::Backface, 1, 1),
+        (Block::Level, 1, 1),
+        (Block::Place, 1, 1),
+        (Block::Evaluate, 1, 10), // two gaps between three rows, eight half-sides
+        (Block::Stitch, 10, 32),
+        (Block::Emit, 32, 25),
+        (Block::VertexShader, 25, 25),
+    ];
+    assert_eq!(tokens, expected);
+    let strips = |level| {
+        let set = |c: &mut Config| (c.level.level, c.level.max_level) = (Some(level), Some(128.0));
+        work(&patch(set), Block::Evaluate).tokens_out
+    };
+    assert_eq!(strips(1.0), 1, "two triangles");
+    // A gap between two rows, two half-sides with a segment and a middle one on each side.
+    assert_eq!(strips(1.5), 1 + 4 * 3);
+    assert_eq!(strips(2.0), 8, "no row is above another");
+    assert_eq!(strips(128.0), 126 + 8);
+    let host = patch(|c| c.unit = Unit::Triangles);
+    let [link, shader] = [Block::Link, Block::VertexShader].map(|block| work(&host, block));
+    assert_eq!((link.tokens_in, link.tokens_out), (2, 25)); // a frame and a draw
+    assert_eq!((shader.tokens_in, shader.tokens_out), (25, 25));
+}
