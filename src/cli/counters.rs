@@ -54,9 +54,11 @@ fn entries() -> Vec<Entry> {
         })
         .collect();
     for unit in [Unit::Hybrid, Unit::Triangles] {
-        let mut chain = chain(unit);
+        let mut chain = chain(&Config { unit, ..Config::default() });
         for stage in &mut chain {
-            stage.shape.lanes = 2; // any block may have more than one
+            // Any block may have more than one lane.
+            stage.shape.lanes = 2;
+            stage.shape.shares_port = matches!(stage.block, Block::Memory | Block::VertexShader);
         }
         for k in 0..chain.len() {
             for entry in standard_entries(&chain, k) {

@@ -212,7 +212,7 @@ impl Config {
     pub fn costs(&self, block: Block) -> Option<BlockCosts> {
         let blocks = &self.block;
         Some(match block {
-            Block::Trace | Block::Link | Block::Memory => return None,
+            Block::Trace | Block::Link | Block::Memory | Block::Unit => return None,
             Block::Transform => blocks.transform.clone(),
             Block::Port => blocks.port.clone(),
             Block::Assemble => blocks.assemble.clone(),

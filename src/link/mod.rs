@@ -15,7 +15,7 @@ use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
 
 /// Bytes of a command's header.
-pub const COMMAND: u64 = 8;
+const COMMAND: u64 = 8;
 /// Bytes of a matrix.
 const MATRIX: u64 = 64;
 /// Bytes of a float.
@@ -102,12 +102,15 @@ pub fn point_bytes(points: &Points) -> u64 {
     FLOAT * u64::from(points.source.components())
 }
 
-/// Resident points written to device memory as they arrive.
-pub fn write_resident(points: &Points, config: &Config, counters: &mut Counters) {
-    if points.resident {
-        let bytes = points.source.len() * point_bytes(points);
-        counters.add(Counter::MemoryWrittenControlPoints, bytes);
-        burst(bytes, config, counters);
+/// Resident points written to device memory as they arrive. Returns the bytes of their bursts.
+pub fn write_resident(command: &Command, config: &Config, counters: &mut Counters) -> u64 {
+    match command {
+        Command::Points(points) if points.resident => {
+            let bytes = points.source.len() * point_bytes(points);
+            counters.add(Counter::MemoryWrittenControlPoints, bytes);
+            burst(bytes, config, counters)
+        }
+        _ => 0,
     }
 }
 
@@ -126,8 +129,10 @@ pub fn bursts(bytes: u64, memory: &Memory) -> u64 {
     bytes.div_ceil(memory.burst.into())
 }
 
-fn burst(bytes: u64, config: &Config, counters: &mut Counters) {
+fn burst(bytes: u64, config: &Config, counters: &mut Counters) -> u64 {
     let bursts = bursts(bytes, &config.memory);
+    let moved = bursts * u64::from(config.memory.burst);
     counters.add(Counter::MemoryBursts, bursts);
-    counters.add(Counter::MemoryWasted, bursts * u64::from(config.memory.burst) - bytes);
+    counters.add(Counter::MemoryWasted, moved - bytes);
+    moved
 }

@@ -304,7 +304,7 @@ pub(super) fn blocks(unit: Unit) -> &'static [Name] {
 }
 
 /// The chain of the configured unit.
-pub(super) fn chain(config: &Config) -> Vec<(Stage, Shape)> {
+pub(super) fn stages(config: &Config) -> Vec<(Stage, Shape)> {
     blocks(config.unit).iter().map(|&block| stage(block, config)).collect()
 }
 
@@ -344,7 +344,9 @@ fn stage(block: Name, config: &Config) -> (Stage, Shape) {
             shape.shares_port = store.as_ref().is_some_and(|store| store.shared);
             Stage::VertexShader(steady, store)
         }
-        Name::Trace | Name::Link | Name::Memory => unreachable!("{block:?} has no costs"),
+        Name::Trace | Name::Link | Name::Memory | Name::Unit => {
+            unreachable!("{block:?} has no costs")
+        }
     };
     (stage, shape)
 }

@@ -6,10 +6,11 @@ use crate::config::{Config, Engine, TransferMode, Unit};
 use crate::link::Transfer;
 use crate::link::framing::Pieces;
 use crate::link::schedule::Parcel;
+use rtl_model::counter::{Counter, Counters};
+use rtl_model::time::Times;
 use rtl_model::time::ordered::Ordered;
 use rtl_model::time::stepped::Stepped;
 use rtl_model::time::timed::Timed;
-use rtl_model::time::{Shape, Times};
 
 /// Most payload bytes of a parcel under `push`: those of its bursts fit 32 bits.
 const PARCEL_MAX: u64 = 1 << 30;
@@ -36,6 +37,21 @@ pub(super) struct Sent {
     pub(super) memory_bytes: u64,
 }
 
+impl Sent {
+    /// What was timed is what was counted.
+    ///
+    /// # Panics
+    /// When it is not.
+    pub(super) fn check(&self, config: &Config, counters: &Counters) {
+        let link = counters.get(Counter::LinkTotal);
+        assert_eq!(self.link_bytes, link, "bytes timed on the link, and bytes counted");
+        if config.unit == Unit::Hybrid {
+            let memory = counters.get(Counter::MemoryBursts) * u64::from(config.memory.burst);
+            assert_eq!(self.memory_bytes, memory, "bytes timed in memory, and bytes counted");
+        }
+    }
+}
+
 enum Running {
     None,
     Timed(Box<Timed<Stage>>),
@@ -55,8 +71,8 @@ pub(super) struct Fetch {
 
 impl Clock {
     pub(super) fn new(config: &Config) -> Self {
-        let chain = chain::chain(config);
-        let shared = chain.iter().any(|(_, shape): &(Stage, Shape)| shape.shares_port);
+        let chain = chain::stages(config);
+        let shared = chain.iter().any(|(_, shape)| shape.shares_port);
         let engine = match config.engine {
             Engine::None => Running::None,
             Engine::Timed if shared => {

@@ -15,6 +15,7 @@ use rtl_model::number::Format;
 use rtl_model::patch::{Level, Patch, Triangle, Vertex, View};
 use rtl_model::place::Placement;
 use rtl_model::stitch::{Degenerate, Stitch};
+use rtl_model::strip::strip_count;
 use rtl_model::{backface, clip, emit, evaluate, level};
 
 /// The blocks of one pipeline and what they made of the patch before.
@@ -120,7 +121,7 @@ impl<'a> Pipeline<'a> {
         let counters = &mut self.counters;
         counters.add(Counter::EvaluateInvocations, cost.invocations);
         counters.add(Counter::EvaluateVertices, self.vertices.len() as u64);
-        counters.add(Counter::EvaluateStrips, strips(&self.placement));
+        counters.add(Counter::EvaluateStrips, strip_count(self.work.segments) as u64);
         counters.add(Counter::EvaluateCurves, cost.curves);
         counters.add(Counter::EvaluateSteps, cost.steps);
         counters.add(Counter::EvaluateOverflows, cost.overflows);
@@ -157,24 +158,6 @@ impl<'a> Pipeline<'a> {
         counters.add(Counter::VertexShaderBytesIn, vertices * u64::from(shader.bytes_in + normal));
         counters.add(Counter::VertexShaderBytesOut, vertices * u64::from(shader.bytes_out));
     }
-}
-
-/// Strips of triangles of a patch: one where it is two triangles; else the gaps between the rows of
-/// the interior, the half-sides that have a segment in either row, and the segments across the
-/// centre of a side.
-fn strips(placement: &Placement) -> u64 {
-    let [columns, rows] = placement.interior();
-    if columns == 0 || rows == 0 {
-        return 1;
-    }
-    let grid = if columns > 1 { rows - 1 } else { 0 };
-    let below_two = placement.u.level() < Level::TWO;
-    let sides = placement.edges.iter().zip([columns, rows, columns, rows]).map(|(edge, along)| {
-        let inner_half = if below_two { 0 } else { (along - 1) / 2 };
-        let halves = if edge.half_segments() + inner_half > 0 { 2 } else { 0 };
-        halves + usize::from(edge.crosses_centre())
-    });
-    (grid + sides.sum::<usize>()) as u64
 }
 
 fn settings(config: &Config, position: Format) -> evaluate::Settings {

@@ -22,7 +22,6 @@ use crate::sink::Sink;
 use crate::trace::command::Command;
 use rtl_model::counter::standard::{Stage, Work};
 use rtl_model::counter::{Block, Counters};
-use rtl_model::time::{LaneOrder, Shape};
 
 pub use frame::FrameState;
 
@@ -73,36 +72,19 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
     }
 }
 
-/// The blocks of a unit that time is laid over, in the order of the data.
+/// The blocks of the configured unit that time is laid over, in the order of the data.
 #[must_use]
-pub fn chain(unit: Unit) -> Vec<Stage> {
-    let blocks: &[Block] = match unit {
-        Unit::Hybrid => &[
-            Block::Link,
-            Block::Memory,
-            Block::Transform,
-            Block::Port,
-            Block::Assemble,
-            Block::Clip,
-            Block::Backface,
-            Block::Level,
-            Block::Place,
-            Block::Evaluate,
-            Block::Stitch,
-            Block::Emit,
-            Block::VertexShader,
-        ],
-        Unit::Triangles => &[Block::Link, Block::VertexShader],
-    };
-    let order = LaneOrder::FirstFree;
-    let shape = Shape { depth: 4, in_flight: 2, lanes: 1, order, shares_port: false };
-    blocks.iter().map(|&block| Stage { block, shape }).collect()
+pub fn chain(config: &Config) -> Vec<Stage> {
+    let blocks = chain::blocks(config.unit).iter();
+    let stages = chain::stages(config).into_iter();
+    blocks.zip(stages).map(|(&block, (_, shape))| Stage { block, shape }).collect()
 }
 
-/// What each block of the chain did in a frame with these counters.
-fn work(chain: &[Stage], counters: &Counters, config: &Config) -> Vec<Work> {
+/// What each block of the chain did in a frame with these counters, in which the host sent so many
+/// tokens.
+fn work(chain: &[Stage], counters: &Counters, sent: u64, config: &Config) -> Vec<Work> {
     let of = |stage: &Stage| {
-        let [tokens_in, tokens_out] = tokens::of(config.unit, stage.block, counters);
+        let [tokens_in, tokens_out] = tokens::of(config.unit, stage.block, counters, sent);
         let ops = arithmetic::of(stage.block, counters, config);
         Work { tokens_in, tokens_out, ops }
     };
@@ -116,7 +98,8 @@ mod tests {
     #[test]
     fn the_timed_chain_is_of_the_units_blocks_in_their_order() {
         for unit in [Unit::Hybrid, Unit::Triangles] {
-            let chain: Vec<_> = chain(unit).iter().map(|stage| stage.block).collect();
+            let config = Config { unit, ..Config::default() };
+            let chain: Vec<_> = chain(&config).iter().map(|stage| stage.block).collect();
             let blocks = blocks(unit).iter().copied().filter(|block| chain.contains(block));
             assert_eq!(blocks.collect::<Vec<_>>(), chain);
             assert!(chain.len() >= 2);

@@ -12,7 +12,7 @@ use crate::shader::control_point;
 use crate::sink::{FrameInfo, Sink};
 use crate::trace::command::{Command, Draw, Frame, Points, Primitive, Tessellation};
 use glam::Mat4;
-use rtl_model::counter::standard::Stage;
+use rtl_model::counter::standard::{Stage, Work};
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
 use rtl_model::patch::Level;
@@ -43,7 +43,8 @@ pub(super) struct Run<'a> {
     counters: Counters,
     /// The blocks that are timed.
     chain: Vec<Stage>,
-    frames: Vec<FrameReport>,
+    /// Counters and work of the frames that have ended; their times come at the end of the run.
+    frames: Vec<(Counters, Vec<Work>)>,
     host_link_bytes: u64,
 }
 
@@ -63,7 +64,7 @@ impl<'a> Run<'a> {
             fetched: 0,
             scratch: Vec::new(),
             counters: Counters::default(),
-            chain: chain(config.unit),
+            chain: chain(config),
             frames: Vec::new(),
             host_link_bytes: 0,
         }
@@ -74,13 +75,15 @@ impl<'a> Run<'a> {
             self.end_frame()?;
         }
         if self.config.unit == Unit::Hybrid {
-            link::patches(command).count(&self.config.link, &mut self.counters);
+            let transfer = link::patches(command);
+            transfer.count(&self.config.link, &mut self.counters);
+            let written = link::write_resident(command, self.config, &mut self.counters);
+            self.send(transfer.payload(), written)?;
         }
         match command {
             Command::Header(_) | Command::End => Ok(()),
             Command::Frame(frame) => self.begin_frame(command, frame),
             Command::Points(points) => {
-                link::write_resident(points, self.config, &mut self.counters);
                 self.points.insert(points.id, points.clone());
                 Ok(())
             }
@@ -92,14 +95,35 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// A command crosses the link, behind the patches so far.
+    fn send(&mut self, payload: u64, written: u64) -> Result<()> {
+        if self.batch.is_empty() {
+            self.clock.command(payload, written);
+        } else if !self.batch.command(payload, written) {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
     pub(super) fn finish(mut self) -> Result<Report> {
         self.end_frame()?;
+        // What stands behind the trace's last frame, or in a trace without any, is in no frame.
+        let times = if self.frames.is_empty() { None } else { self.clock.finish() };
+        let (mut times, occupancy) = match times {
+            None => (None, Vec::new()),
+            Some(times) => (Some(times.frames.into_iter()), times.occupancy),
+        };
+        let frames = self.frames.into_iter().map(|(counters, work)| {
+            let times = times.as_mut().map(|times| times.next().expect("every frame was timed"));
+            FrameReport::new(&self.chain, counters, work, times)
+        });
+        let frames = frames.collect();
         let report = Report {
             config: self.config.effective(),
             blocks: blocks(self.config.unit),
             chain: self.chain,
-            frames: self.frames,
-            occupancy: Vec::new(),
+            frames,
+            occupancy,
             host_link_bytes: self.host_link_bytes,
         };
         report.check();
@@ -115,8 +139,17 @@ impl<'a> Run<'a> {
         self.counters.add(Counter::TraceFrames, 1);
         self.frame = Some(state);
         self.patches = 0;
-        self.host(link::patches(command));
-        Ok(())
+        let transfer = link::patches(command);
+        self.host(transfer);
+        self.send_as_host(transfer)
+    }
+
+    /// Where the host tessellates: a command, which its vertices follow.
+    fn send_as_host(&mut self, transfer: Transfer) -> Result<()> {
+        match self.config.unit {
+            Unit::Hybrid => Ok(()),
+            Unit::Triangles => self.send(transfer.payload(), 0),
+        }
     }
 
     fn end_frame(&mut self) -> Result<()> {
@@ -131,8 +164,10 @@ impl<'a> Run<'a> {
             self.host(transfer.with_triangles(tally.vertices, tally.triangles, self.config));
         }
         let counters = std::mem::take(&mut self.counters);
-        let work = work(&self.chain, &counters, self.config);
-        self.frames.push(FrameReport::new(&self.chain, counters, work, None));
+        let sent = self.clock.end_frame();
+        sent.check(self.config, &counters);
+        let work = work(&self.chain, &counters, sent.tokens, self.config);
+        self.frames.push((counters, work));
         Ok(())
     }
 
@@ -171,6 +206,7 @@ impl<'a> Run<'a> {
         counters.add(Counter::AssembleEdgePeak, draw.primitive.edge_entries_peak());
         let number = self.draws.len() as u32;
         self.draws.push(transfer);
+        self.send_as_host(transfer)?;
         let state = DrawState {
             number,
             cull: draw.cull,
@@ -181,13 +217,14 @@ impl<'a> Run<'a> {
         let mut whole: Option<Range<usize>> = None;
         for model in &draw.models {
             link::read_resident(&points, received, self.config, &mut self.counters);
+            self.fetched = 0;
             let model = Mat4::from_cols_array(model);
             let matrix = control_point::concatenate(&frame.clip_from_world, &model);
             match whole.clone() {
                 Some(spans) if self.batch.room() as u64 >= draw.primitive.patches() => {
                     self.batch.draw(state);
                     let base = self.batch.again(matrix, spans);
-                    self.patches(draw.primitive, base);
+                    self.patches(draw, &points, Block::whole(draw.primitive), base);
                 }
                 _ => whole = self.instance(draw, &points, matrix, state)?,
             }
@@ -204,10 +241,7 @@ impl<'a> Run<'a> {
         matrix: Mat4,
         state: DrawState,
     ) -> Result<Option<Range<usize>>> {
-        let (rows, columns) = match draw.primitive {
-            Primitive::Patches { count } => (1, count),
-            Primitive::Mesh { rows, columns } => (u64::from(rows), u64::from(columns)),
-        };
+        let Block { rows, columns, .. } = Block::whole(draw.primitive);
         let (mut row, mut column) = (0, 0);
         let mut whole = None;
         while row < rows {
@@ -239,10 +273,6 @@ impl<'a> Run<'a> {
             Primitive::Patches { .. } => None,
             Primitive::Mesh { columns, .. } => Some(3 * u64::from(columns) + 1),
         };
-        let local = match mesh {
-            None => Primitive::Patches { count: columns },
-            Some(_) => Primitive::Mesh { rows: rows as u32, columns: columns as u32 },
-        };
         let Some(stride) = mesh else {
             points.source.read(
                 draw.first + 16 * column,
@@ -250,7 +280,7 @@ impl<'a> Run<'a> {
                 &mut self.scratch,
             )?;
             let base = self.batch.points(matrix, &self.scratch, 0);
-            self.patches(local, base);
+            self.patches(draw, points, block, base);
             return Ok(());
         };
         let mut base = None;
@@ -265,16 +295,37 @@ impl<'a> Run<'a> {
             let index = self.batch.points(matrix, &self.scratch, repeated);
             base.get_or_insert(index);
         }
-        self.patches(local, base.expect("a block has lines"));
+        self.patches(draw, points, block, base.expect("a block has lines"));
         Ok(())
     }
 
-    fn patches(&mut self, primitive: Primitive, base: u32) {
-        for n in 0..primitive.patches() {
-            let indices = primitive.indices(n).map(|i| base + i as u32);
-            self.batch.patch(self.patches as u32, indices);
+    /// The patches of a block whose points stand in the batch from `base` on.
+    fn patches(&mut self, draw: &Draw, points: &Points, block: Block, base: u32) {
+        let Block { row, column, rows, columns } = block;
+        let local = match draw.primitive {
+            Primitive::Patches { .. } => Primitive::Patches { count: columns },
+            Primitive::Mesh { .. } => {
+                Primitive::Mesh { rows: rows as u32, columns: columns as u32 }
+            }
+        };
+        let across = Block::whole(draw.primitive).columns;
+        for n in 0..local.patches() {
+            let indices = local.indices(n).map(|i| base + i as u32);
+            let number = (row + n / columns) * across + column + n % columns;
+            let fetch = self.fetch(points, draw.primitive.received(number));
+            self.batch.patch(self.patches as u32, indices, fetch);
             self.patches += 1;
         }
+    }
+
+    /// The next `count` points of an instance: resident ones share bursts with those before.
+    fn fetch(&mut self, points: &Points, count: u64) -> Fetch {
+        let memory = &self.config.memory;
+        let bursts = |fetched| link::bursts(fetched * link::point_bytes(points), memory);
+        let before = self.fetched;
+        self.fetched += count;
+        let bursts = if points.resident { bursts(self.fetched) - bursts(before) } else { 0 };
+        Fetch { points: count as u8, read: bursts as u32 * memory.burst }
     }
 
     fn flush(&mut self) -> Result<()> {
@@ -284,7 +335,9 @@ impl<'a> Run<'a> {
         let frame = self.frame.expect("patches belong to a frame");
         let wanted = self.sink.wants(self.frames.len() as u64);
         let sink: Option<&mut dyn Sink> = if wanted { Some(&mut *self.sink) } else { None };
-        for tally in self.batch.flush(self.config, &frame, sink, &mut self.counters)? {
+        let tallies =
+            self.batch.flush(self.config, &frame, sink, &mut self.counters, &mut self.clock)?;
+        for tally in tallies {
             batch::add(&mut self.tallies, tally);
         }
         Ok(())
@@ -305,4 +358,15 @@ struct Block {
     column: u64,
     rows: u64,
     columns: u64,
+}
+
+impl Block {
+    /// All patches of an instance; those of no mesh are a row.
+    fn whole(primitive: Primitive) -> Self {
+        let (rows, columns) = match primitive {
+            Primitive::Patches { count } => (1, count),
+            Primitive::Mesh { rows, columns } => (rows.into(), columns.into()),
+        };
+        Self { row: 0, column: 0, rows, columns }
+    }
 }

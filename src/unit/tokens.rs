@@ -4,30 +4,28 @@
 //! emits the next accepts:
 //!
 //! ```text
-//!   link ─ commands, patches ─► memory ─ points ─► transform ─ points ─► port ─ points ─►
+//!   link ─ parcels, patches ─► memory ─ points ─► transform ─ points ─► port ─ points ─►
 //!   assemble ─ patches ─► clip, backface, level, place ─ patches ─► evaluate ─ strips ─►
 //!   stitch ─ triangles ─► emit ─ vertices ─► vertex shader
 //! ```
 
 use crate::config::Unit;
-use crate::link::COMMAND;
 use rtl_model::counter::{Block, Counter as C, Counters};
 
-/// Tokens that `block` accepts and emits in a frame with these counters.
-pub(super) fn of(unit: Unit, block: Block, counters: &Counters) -> [u64; 2] {
+/// Tokens that `block` accepts and emits in a frame with these counters, in which the host sent so
+/// many.
+pub(super) fn of(unit: Unit, block: Block, counters: &Counters, sent: u64) -> [u64; 2] {
     match unit {
-        Unit::Hybrid => hybrid(block, |counter| counters.get(counter)),
-        Unit::Triangles => triangles(block, |counter| counters.get(counter)),
+        Unit::Hybrid => hybrid(block, |counter| counters.get(counter), sent),
+        Unit::Triangles => triangles(block, |counter| counters.get(counter), sent),
     }
 }
 
-fn hybrid(block: Block, get: impl Fn(C) -> u64) -> [u64; 2] {
-    // A patch is asked for by a token of its own.
-    let fetches = get(C::LinkCommands) / COMMAND + get(C::TracePatches);
+fn hybrid(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
     let clipped = get(C::ClipIn) - get(C::ClipCulled);
     match block {
-        Block::Link => [fetches; 2],
-        Block::Memory => [fetches, get(C::PortPoints)],
+        Block::Link => [sent; 2],
+        Block::Memory => [sent, get(C::PortPoints)],
         Block::Transform => [get(C::TransformInvocations); 2],
         Block::Port => [get(C::PortPoints); 2],
         Block::Assemble => [get(C::AssembleReceived), get(C::AssemblePatches)],
@@ -42,11 +40,11 @@ fn hybrid(block: Block, get: impl Fn(C) -> u64) -> [u64; 2] {
     }
 }
 
-/// Where the host tessellates: commands in, and from the link on a token a vertex.
-fn triangles(block: Block, get: impl Fn(C) -> u64) -> [u64; 2] {
+/// Where the host tessellates: from the link on a token a vertex.
+fn triangles(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
     let vertices = get(C::VertexShaderInvocations);
     match block {
-        Block::Link => [get(C::LinkCommands) / COMMAND, vertices],
+        Block::Link => [sent, vertices],
         Block::VertexShader => [vertices; 2],
         _ => [0; 2], // not of the chain
     }
