@@ -93,6 +93,7 @@ fn add_times(sum: &mut FrameTimes, times: &FrameTimes) {
         sum.blocked += stage.blocked;
         sum.blocked_by_order += stage.blocked_by_order;
         sum.total += stage.total;
+        sum.used += stage.used;
         sum.tokens_in += stage.tokens_in;
         sum.tokens_out += stage.tokens_out;
         sum.fifo_peak = sum.fifo_peak.max(stage.fifo_peak);

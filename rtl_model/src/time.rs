@@ -38,6 +38,9 @@
 //!   order while tokens of other lanes go first;
 //! - busy: in flight and not blocked; starved: not in flight.
 //!
+//! A lane is used while the initiation interval of its last token lasts: a block whose lanes are
+//! used all the time can do no more, whereas one with a long latency is soon always busy.
+//!
 //! Elapsed is the time at which the last token left; the cycle of that number is not counted, so
 //! that n tokens of interval i and latency l take (n - 1) i + l cycles.
 
@@ -142,6 +145,8 @@ pub struct StageTimes {
     pub blocked_by_order: u64,
     /// All of these: elapsed cycles x lanes.
     pub total: u64,
+    /// Within the initiation interval of a token: what a lane was used of what it could have been.
+    pub used: u64,
     /// Tokens accepted.
     pub tokens_in: u64,
     /// Tokens emitted.

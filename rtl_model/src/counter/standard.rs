@@ -122,6 +122,8 @@ pub enum Quantity {
     BlockedByOrder,
     /// [`StageTimes::total`].
     Total,
+    /// [`StageTimes::used`].
+    Used,
 }
 
 impl Quantity {
@@ -147,6 +149,7 @@ impl Quantity {
             Self::BlockedByDownstream => times?.blocked,
             Self::BlockedByOrder => times?.blocked_by_order,
             Self::Total => times?.total,
+            Self::Used => times?.used,
         })
     }
 
@@ -278,6 +281,13 @@ pub const STANDARD: &[Standard] = {
             "",
         ),
         row(Q::Total, "cycles.total", Cycles, "elapsed cycles x lanes", TOTAL),
+        row(
+            Q::Used,
+            "cycles.used",
+            Cycles,
+            "lane-cycles within the initiation interval of a token; over total, the utilisation",
+            "<= busy + blocked",
+        ),
     ]
 };
 
@@ -321,6 +331,8 @@ pub fn check(chain: &[Stage], works: &[Work], times: &FrameTimes) {
         let parts = [t.busy, t.starved, t.starved_by_port, t.blocked, t.blocked_by_order];
         let sum: u64 = parts.iter().sum();
         assert_eq!(sum, t.total, "{name}: busy + starved + blocked = total, {t:?}");
+        let in_flight = t.busy + t.blocked + t.blocked_by_order;
+        assert!(t.used <= in_flight, "{name}: used {} of {in_flight} in flight", t.used);
         assert_eq!(t.tokens_in, work.tokens_in, "{name}: tokens accepted, timed and counted");
         assert_eq!(t.tokens_out, work.tokens_out, "{name}: tokens emitted, timed and counted");
         // What has no row of its own would be missing from the sum of the rows.
@@ -386,13 +398,14 @@ mod tests {
             blocked: 6,
             blocked_by_order: 7,
             total: 25,
+            used: 2,
             tokens_in: 1,
             tokens_out: 2,
             fifo_peak: 8,
         };
         let values: Vec<_> =
             STANDARD.iter().map(|row| row.quantity.value(&work, Some(&times)).unwrap()).collect();
-        assert_eq!(values, [1, 2, 20, 160, 30, 600, 10, 70, 8, 3, 9, 4, 5, 13, 6, 7, 25]);
+        assert_eq!(values, [1, 2, 20, 160, 30, 600, 10, 70, 8, 3, 9, 4, 5, 13, 6, 7, 25, 2]);
         let without = Work { ops: None, ..work };
         let left = STANDARD.iter().filter(|row| row.quantity.value(&without, None).is_some());
         assert_eq!(left.count(), 2, "tokens need neither arithmetic nor an engine");

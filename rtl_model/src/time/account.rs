@@ -158,6 +158,10 @@ pub(super) struct Lane {
     pub(super) blocked: u64,
     /// By order.
     pub(super) by_order: u64,
+    /// Cycles within initiation intervals.
+    used: u64,
+    /// When the last of these ends.
+    next: u64,
     /// The frame of its last token.
     frame: usize,
     /// Where its share of the frame began.
@@ -179,6 +183,8 @@ impl Lane {
             by_port: 0,
             blocked: 0,
             by_order: 0,
+            used: 0,
+            next: 0,
             frame: 0,
             start: 0,
             ends: Vec::new(),
@@ -192,6 +198,8 @@ impl Lane {
         self.idle += accept.saturating_sub(self.covered);
         self.head = left + 1;
         self.covered = next.max(left + 1);
+        self.used += next - accept;
+        self.next = next;
         self.frame = frame;
         self.slots[self.slot] = left + 1;
         self.slot += 1;
@@ -241,8 +249,9 @@ impl Lane {
         times.starved_by_port += self.by_port;
         times.starved += idle - self.by_port;
         times.total += total;
+        times.used += self.used - self.next.saturating_sub(end);
         (self.start, self.idle, self.by_port) = (end, 0, 0);
-        (self.blocked, self.by_order) = (0, 0);
+        (self.blocked, self.by_order, self.used) = (0, 0, 0);
     }
 
     /// Closes the lane's share of a frame where its last token is through it.
@@ -259,6 +268,7 @@ impl Lane {
         let tail = elapsed.saturating_sub(self.start);
         times[last].starved += tail;
         times[last].total += tail;
+        times[self.frame].used -= self.next.saturating_sub(elapsed);
         // A token that leaves in the last cycle, or an initiation interval that outlasts the run.
         let mut from = elapsed;
         for (frame, end) in std::mem::take(&mut self.ends) {
@@ -273,6 +283,7 @@ impl Lane {
     fn restart(&mut self) {
         self.slots.fill(0);
         (self.ready, self.slot, self.head, self.covered, self.start) = (0, 0, 0, 0, 0);
+        self.next = 0;
     }
 }
 

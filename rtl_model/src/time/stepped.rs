@@ -80,6 +80,8 @@ struct Lane {
     /// How many cycles it did what, since it was entered in the books of a frame. Idle cycles
     /// belong to the frame of the next token.
     cycles: [u64; 6],
+    /// Cycles within initiation intervals of tokens of its last token's frame.
+    used: u64,
 }
 
 /// What a lane did in a cycle.
@@ -110,6 +112,12 @@ impl Lane {
         times.blocked += cycles[1];
         times.blocked_by_order += cycles[2];
         times.total += cycles.iter().sum::<u64>();
+    }
+
+    fn enter_used(&mut self, times: &mut [StageTimes]) {
+        if let Some(times) = times.get_mut(self.last) {
+            times.used += std::mem::take(&mut self.used);
+        }
     }
 
     /// Enters the cycles in which it had nothing to do, before a token of the frame of `times`.
@@ -272,7 +280,7 @@ impl<B: Block> Stage<B> {
     /// Time starts again at 0.
     fn restart(&mut self) {
         let frame = self.times.len();
-        self.lanes.fill(Lane { frame, ..Lane::default() });
+        self.lanes.fill(Lane { frame, last: frame, ..Lane::default() });
         (self.round_robin, self.next_accept, self.held) = (0, 0, 0);
     }
 
@@ -306,6 +314,7 @@ impl<B: Block> Stage<B> {
     fn count_last_cycle(&mut self, now: u64) {
         for lane in &mut self.lanes {
             lane.cycles[lane.state as usize] += 1;
+            lane.used += u64::from(lane.next_accept >= now && now > 0);
             lane.state = State::Idle;
         }
         if let Some(held) = self.occupancy.get_mut(self.held) {
@@ -342,7 +351,10 @@ impl<B: Block> Stage<B> {
         let taken = &mut self.lanes[lane];
         taken.enter_idle(times);
         taken.in_flight += 1;
-        taken.last = frame;
+        if taken.last != frame {
+            taken.enter_used(&mut self.times);
+            taken.last = frame;
+        }
         taken.next_accept = now + cost.interval;
         if self.shape.lanes > 1 {
             self.round_robin = (self.round_robin + 1) % self.lanes.len();
@@ -446,6 +458,7 @@ impl<B: Block> Stage<B> {
         let Some(last) = self.times.len().checked_sub(1) else { return };
         for lane in &mut self.lanes {
             lane.enter(&mut self.times);
+            lane.enter_used(&mut self.times);
             lane.enter_idle(&mut self.times[last]);
         }
     }

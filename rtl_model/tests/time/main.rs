@@ -26,6 +26,7 @@ fn assert_conserved((times, log): &Outcome, pipeline: &Pipeline) {
         let parts = sum(|s| s.busy + s.starved + s.starved_by_port)
             + sum(|s| s.blocked + s.blocked_by_order);
         assert_eq!(parts, sum(|s| s.total));
+        assert!(sum(|s| s.used) <= sum(|s| s.busy + s.blocked + s.blocked_by_order));
         assert_eq!(parts, elapsed * u64::from(shape.lanes), "lane-cycles of stage {k}");
         if k > 0 {
             let occupancy = &times.occupancy[k];

@@ -112,6 +112,7 @@ fn a_fan_out_of_three_into_a_fifo_of_two() {
         starved: 2,
         blocked: 3,
         total: 12,
+        used: 6, // two intervals of 3
         tokens_in: 2,
         tokens_out: 6,
         ..StageTimes::default()
@@ -121,6 +122,7 @@ fn a_fan_out_of_three_into_a_fifo_of_two() {
         busy: 10,
         starved: 2,
         total: 12,
+        used: 10, // intervals of 2 from cycle 2 on; the last begins at 12
         tokens_in: 6,
         tokens_out: 6,
         fifo_peak: 2,
@@ -145,6 +147,7 @@ fn two_lanes_retire_in_order() {
         starved: 1,          // lane 1 in 0
         blocked_by_order: 4, // lane 1 in 2..6
         total: 14,
+        used: 7, // 0..4, 1..3, 6
         tokens_in: 3,
         tokens_out: 3,
         ..StageTimes::default()
@@ -168,6 +171,7 @@ fn the_first_and_the_last_stage_share_the_port() {
         starved_by_port: 6, // 2 3 4, 7 8 9
         starved: 1,         // 12: the host has no more
         total: 13,
+        used: 3, // 0, 5, 10
         tokens_in: 3,
         tokens_out: 3,
         ..StageTimes::default()
@@ -178,6 +182,7 @@ fn the_first_and_the_last_stage_share_the_port() {
         starved_by_port: 3, // 2, 7, 12
         starved: 8,
         total: 13,
+        used: 2, // 3, 8
         tokens_in: 3,
         tokens_out: 3,
         fifo_peak: 1,

@@ -23,25 +23,26 @@ pub(super) fn section(table: &mut Table, report: &Report, whole: &Frame) {
     let clock = report.config.clock_mhz;
     let milliseconds = ratio(times.elapsed, 1000 * u64::from(clock));
     table.rate(&format!("milliseconds at {clock} MHz"), milliseconds, "");
-    let heads = ["block", "busy", "starved", "blocked", "fifo peak", "waits for"];
+    let heads = ["block", "used", "busy", "starved", "blocked", "fifo peak", "waits for"];
     table.line(&format!("  {DIM}{}{PLAIN}", columns(heads)));
     for (k, t) in times.stages.iter().enumerate() {
         table.line(&format!("  {}", block(&report.chain, k, t)));
     }
 }
 
-fn columns([block, busy, starved, blocked, fifo, waits]: [&str; 6]) -> String {
-    let line = format!("{block:13} {busy:>8} {starved:>8} {blocked:>8} {fifo:>12}   {waits}");
+fn columns([block, used, busy, starved, blocked, fifo, waits]: [&str; 7]) -> String {
+    let shares = format!("{used:>8} {busy:>8} {starved:>8} {blocked:>8}");
+    let line = format!("{block:13} {shares} {fifo:>12}   {waits}");
     line.trim_end().to_owned()
 }
 
 fn block(chain: &[Stage], k: usize, t: &StageTimes) -> String {
     let share = |part| ratio(part, t.total).map_or_else(|| "-".to_owned(), percent);
-    let shares = [t.busy, t.starved + t.starved_by_port, t.blocked + t.blocked_by_order];
-    let [busy, starved, blocked] = shares.map(share);
+    let shares = [t.used, t.busy, t.starved + t.starved_by_port, t.blocked + t.blocked_by_order];
+    let [used, busy, starved, blocked] = shares.map(share);
     let Stage { block, shape } = chain[k];
     let fifo = if k == 0 { "-".to_owned() } else { format!("{} of {}", t.fifo_peak, shape.depth) };
-    columns([block.name(), &busy, &starved, &blocked, &fifo, &waits(chain, k, t)])
+    columns([block.name(), &used, &busy, &starved, &blocked, &fifo, &waits(chain, k, t)])
 }
 
 /// What a block waits for, the longest wait first.
@@ -72,16 +73,16 @@ pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
         return table.line(&format!("{WHAT}nothing, for nothing ran"));
     };
     let name = report.chain[k].block.name();
-    let busy = percent(utilisation);
+    let used = percent(utilisation);
     if utilisation < BINDS {
         table.line(&format!("{WHAT}latency, not the throughput of a block"));
         table.line(&format!(
-            "    even {name}, the busiest, is busy only {busy} of the time: the rest"
+            "    even {name}, the most used, is used only {used} of the time: the rest"
         ));
         table.line("    is dependencies, and filling and draining the pipeline");
         return;
     }
-    table.line(&format!("{WHAT}{BOLD}{name}{PLAIN}, busy {busy} of the time"));
+    table.line(&format!("{WHAT}{BOLD}{name}{PLAIN}, used {used} of the time"));
     let neighbours = [upstream(&report.chain, times, k), downstream(&report.chain, times, k)];
     for consequence in neighbours.into_iter().flatten() {
         table.line(&format!("    {consequence}"));
@@ -90,7 +91,7 @@ pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
 
 /// The block with the highest utilisation, the first of equals, and that utilisation.
 fn busiest(times: &FrameTimes) -> Option<(usize, f64)> {
-    let shares = times.stages.iter().map(|t| ratio(t.busy, t.total));
+    let shares = times.stages.iter().map(|t| ratio(t.used, t.total));
     largest(shares.enumerate().filter_map(|(k, share)| Some((k, share?))))
 }
 
