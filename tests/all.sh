@@ -56,6 +56,13 @@ need() {
 if ! command -v cc >/dev/null && command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
     apt-get update -qq && apt-get install -y -qq --no-install-recommends gcc libc6-dev
 fi
+# Verilator runs the stitcher's SystemVerilog beside the Rust block; Yosys shows that it is hardware.
+if ! command -v verilator >/dev/null || ! command -v yosys >/dev/null || ! command -v g++ >/dev/null; then
+    if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+        { apt-get update -qq && apt-get install -y -qq --no-install-recommends \
+            verilator yosys g++ make; } >/dev/null || echo "apt-get cannot install verilator, yosys"
+    fi
+fi
 need cc "install a C compiler (Debian: gcc libc6-dev)"
 need cargo "install Rust 1.90 or newer from https://rustup.rs"
 need git "install git; a rule of tests/tidy.rs asks it for the tracked files"
@@ -67,6 +74,19 @@ smoke() {
     cargo run --quiet --release -- run traces/teapot.jsonl --out "$out/result" --mesh ply
     test -s "$out/result/counters.csv" && test -s "$out/result/mesh.ply"
     rm -rf "$out"
+}
+
+lockstep() {
+    command -v g++ >/dev/null || { echo "SKIPPED lock step: no g++"; return; }
+    cargo clippy -p rtl_model --all-targets --features verilator --quiet -- -D warnings &&
+        cargo test -p rtl_model --release --features verilator --test lockstep -- --nocapture
+}
+
+# Cells, and no latch: whatever is not a register is combinational.
+synthesis() {
+    command -v yosys >/dev/null || { echo "SKIPPED synthesis: no yosys"; return; }
+    yosys -q -p 'read_verilog -sv rtl_model/sv/stitch.sv; synth -flatten -top stitch; check -assert
+        select -assert-none t:*LATCH*; select -assert-min 100 t:*DFF*; tee -o /dev/stdout stat'
 }
 
 fuzz() {
@@ -85,7 +105,11 @@ step "lints" cargo clippy --workspace --all-targets --quiet -- -D warnings
 # checked, in all that follows: one profile builds the dependencies once.
 export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
 # --nocapture, or the reasons of skipped tests would not be seen.
-step "tests" cargo test --workspace --release --no-fail-fast --lib --bins --tests -- --nocapture
+# The lock-step test has its own step: its feature would have all crates built twice.
+step "tests" cargo test --workspace --release --no-fail-fast --lib --bins --tests -- --nocapture \
+    --skip the_hardware_description_keeps_step
+step "lock step with the SystemVerilog" lockstep
+step "synthesis" synthesis
 step "documentation tests" cargo test --workspace --release --doc
 step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
 step "a run" smoke

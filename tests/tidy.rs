@@ -18,8 +18,9 @@ mod rules;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Folders whose Rust files keep the rules.
-const WALKED: [&str; 4] = ["src", "rtl_model/src", "tests", "benches"];
+/// Files, and folders whose Rust files keep the rules.
+const WALKED: [&str; 6] =
+    ["src", "rtl_model/src", "rtl_model/tests", "rtl_model/build.rs", "tests", "benches"];
 
 /// Blocks without a golden file, each with its reason.
 const NO_GOLDEN: &[(&str, &str)] =
@@ -35,27 +36,27 @@ fn root() -> &'static Path {
 /// Every Rust file under the walked folders: its path from the root, with `/`, and its text.
 fn rust_files() -> Vec<(String, String)> {
     let mut files = Vec::new();
-    for folder in WALKED.map(|folder| root().join(folder)) {
-        if folder.is_dir() {
-            collect(&folder, &mut files);
+    for path in WALKED.map(|path| root().join(path)) {
+        if path.exists() {
+            collect(&path, &mut files);
         }
     }
     files.sort();
     files
 }
 
-fn collect(folder: &Path, files: &mut Vec<(String, String)>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path: PathBuf = entry.unwrap().path();
-        if path.join("Cargo.toml").exists() || path.ends_with("target") {
-            continue; // a workspace of its own, such as tests/fuzz
-        }
-        if path.is_dir() {
+fn collect(path: &Path, files: &mut Vec<(String, String)>) {
+    if path.is_dir() {
+        for entry in std::fs::read_dir(path).unwrap() {
+            let path: PathBuf = entry.unwrap().path();
+            if path.join("Cargo.toml").exists() || path.ends_with("target") {
+                continue; // a workspace of its own, such as tests/fuzz
+            }
             collect(&path, files);
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            let name = path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/");
-            files.push((name, std::fs::read_to_string(&path).unwrap()));
         }
+    } else if path.extension().is_some_and(|e| e == "rs") {
+        let name = path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/");
+        files.push((name, std::fs::read_to_string(path).unwrap()));
     }
 }
 

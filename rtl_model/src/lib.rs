@@ -14,6 +14,8 @@
 //! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand
 //! above it in the list below, which is the order of the data.
 
+#![forbid(unsafe_code)]
+
 pub mod number;
 
 pub mod time;

@@ -80,8 +80,8 @@ pub struct Strip {
     pub inner_segments: u8,
     /// Whether the rows run clockwise, so that triangles swap their last two vertices.
     pub mirrored: bool,
-    /// The number after the last boundary vertex, at most 512, which stands for vertex 0 in the
-    /// outer row; 0 where the outer row is no edge's.
+    /// The number after the last boundary vertex, at most 512: an outer row that begins with it
+    /// begins with vertex 0. It is 0 where the outer row is no edge's.
     pub end: u16,
     /// Interior rows of the patch that must be complete before the strip can be stitched, from the
     /// first one: 0 to 127. (Boundary vertices come before all interior ones.)
@@ -161,8 +161,8 @@ impl Triangles {
     #[inline(always)]
     fn step(&mut self) -> Triangle {
         let Strip { outer, inner, end, .. } = self.strip;
-        let on_edge = |k: u16| if k == end { 0 } else { k };
-        let (o, i) = (on_edge(outer.first), inner.first);
+        // Only the first vertex of a row can be the end: no walk goes on to the far corner.
+        let (o, i) = (if outer.first == end { 0 } else { outer.first }, inner.first);
         let [a, b, c] = if self.error >= 0 {
             self.error -= 2 * i16::from(self.strip.outer_segments);
             self.strip.inner = inner.next();
@@ -170,7 +170,7 @@ impl Triangles {
         } else {
             self.error += 2 * i16::from(self.strip.inner_segments);
             self.strip.outer = outer.next();
-            [o, on_edge(self.strip.outer.first), i]
+            [o, self.strip.outer.first, i]
         };
         if self.strip.mirrored { [a, c, b] } else { [a, b, c] }
     }

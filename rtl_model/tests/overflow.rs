@@ -15,7 +15,8 @@ fn patch(points: [[i64; 4]; 16]) -> Patch {
 fn evaluate_counts_and_fits_what_its_error_carries_out_of_the_format() {
     let position = Format::of_range(16, 0);
     let max = position.max();
-    // Within 2^10 of the end, where the error of 63 steps from rounded coefficients exceeds what is left.
+    // Within 2^10 of the end, where the error of 63 steps from rounded coefficients exceeds what
+    // is left.
     let below = |k: i64| max - k * 619 % 1024;
     let high = patch(std::array::from_fn(|k| [1, 5, 11, 29].map(|n| below(n * (k as i64 + 3)))));
     let low = patch(high.points.map(|p| p.map(|c| c / 64)));

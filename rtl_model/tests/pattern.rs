@@ -118,7 +118,10 @@ fn level() -> impl Strategy<Value = u32> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
     #[test]
-    fn every_mesh_is_a_disc(e in prop::array::uniform4(level()), i in prop::option::of(prop::array::uniform2(level()))) {
+    fn every_mesh_is_a_disc(
+        e in prop::array::uniform4(level()),
+        i in prop::option::of(prop::array::uniform2(level())),
+    ) {
         promises(e, i.unwrap_or(across(e)));
     }
 
@@ -215,7 +218,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
     #[test]
     fn a_stitcher_that_keeps_its_triangles_never_hands_out_stale_ones(
-        levels in prop::collection::vec(prop::array::uniform4(prop_oneof![level(), 3 * ONE..5 * ONE]), 1..12),
+        levels in prop::collection::vec(
+            prop::array::uniform4(prop_oneof![level(), 3 * ONE..5 * ONE]), 1..12,
+        ),
     ) {
         let mut stitch = stitch::Stitch::default();
         for e in levels {

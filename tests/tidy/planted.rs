@@ -31,6 +31,9 @@ fn forbidden_words_are_found_in_code_and_nowhere_else() {
     caught("src/a.rs", "\n\nfn f() { dbg!(3) }", "src/a.rs:4: dbg!");
     caught("tests/a.rs", "#[test] #[ignore = \"slow\"] fn f() {}", "#[ignore");
     caught("rtl_model/src/a.rs", "fn f() { unsafe { g() } }", "unsafe");
+    caught("rtl_model/tests/lockstep/main.rs", "fn f() { unsafe { g() } }", "unsafe");
+    passes("rtl_model/tests/lockstep/verilated.rs", "fn f() { unsafe { g() } }");
+    caught("rtl_model/tests/lockstep/verilated.rs", "fn f() { todo!() }", "todo!");
     passes("src/a.rs", "// todo!()\n/* dbg!() /* unsafe */ unsafe */ fn f() {}");
     passes("src/a.rs", "const A: &str = \"todo!() \\\" unsafe\"; const B: char = '\"';");
     passes("src/a.rs", "const A: &str = r#\"a \" unsafe\"#; fn f<'a>(x: &'a str) {}");
