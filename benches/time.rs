@@ -19,7 +19,7 @@ struct Stage {
 impl Block for Stage {
     type Token = u32;
 
-    fn accept(&mut self, token: u32, out: &mut impl Emit<u32>) -> Cost {
+    fn accept(&mut self, &token: &u32, out: &mut impl Emit<u32>) -> Cost {
         out.emit(token, self.latency.into());
         Cost { interval: self.interval.into(), latency: self.latency.into() }
     }

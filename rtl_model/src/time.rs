@@ -58,7 +58,7 @@ pub trait Block {
 
     /// Takes a token and emits what it makes of it, in order, each with its cycle counted from
     /// acceptance.
-    fn accept(&mut self, token: Self::Token, out: &mut impl Emit<Self::Token>) -> Cost;
+    fn accept(&mut self, token: &Self::Token, out: &mut impl Emit<Self::Token>) -> Cost;
 
     /// Whether the token needs the memory port that stages share, and for how many cycles it then
     /// holds it. Asked before acceptance, and only of stages that share the port.

@@ -144,9 +144,9 @@ impl Block for Stage {
     type Token = Token;
 
     #[inline]
-    fn accept(&mut self, token: Token, out: &mut impl Emit<Token>) -> Cost {
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
         match (self, token) {
-            (Self::Emit(emit), Token::Triangle(triangle, first)) => {
+            (Self::Emit(emit), &Token::Triangle(triangle, first)) => {
                 emit.accept(triangle, first, &mut Vertices(out))
             }
             (Self::VertexShader(shader, store), Token::Vertex) => {
@@ -155,9 +155,9 @@ impl Block for Stage {
                 cost
             }
             (Self::Stitch(stitch), Token::Strip(strip)) => {
-                stitch.accept(&strip, &mut Triangles { out, first: strip.first })
+                stitch.accept(strip, &mut Triangles { out, first: strip.first })
             }
-            (stage, token) => stage.accept_patch(token, out),
+            (stage, token) => stage.accept_patch(*token, out),
         }
     }
 

@@ -23,12 +23,13 @@ impl Schedule {
     pub const IN_FLIGHT: u32 = 2;
 
     /// Emits the triangles of `strip`.
+    #[inline]
     pub fn accept(&self, strip: &Strip, out: &mut impl Emit<Triangle>) -> Cost {
         let mut offset = u64::from(self.latency);
-        for triangle in strip.triangles() {
+        strip.for_each(|triangle| {
             out.emit(triangle, offset);
             offset += u64::from(self.interval);
-        }
+        });
         let interval = u64::from(strip.count()) * u64::from(self.interval);
         Cost { interval, latency: self.latency.into() }
     }

@@ -14,18 +14,22 @@ pub(super) struct Fifo {
     credits: Box<[u64]>,
     /// Where the next token's acceptance goes, which is where that of `depth` tokens ago stands.
     next: usize,
+    /// Where that of the next token to be pushed goes.
+    tail: usize,
     /// Entries at the start of cycle `cursor`, up to which `cycles` is complete.
     held: usize,
     cursor: u64,
+    /// Where the acceptance of the oldest of these stands.
+    oldest: usize,
     /// Entries that were alone, and taken in the first cycle in which they were seen.
     prompt: u64,
+    /// Of these, in earlier frames.
+    prompt_before: u64,
     /// Cycles at the start of which there were 0, 1, .. entries, but for the prompt ones; those
     /// with none are what is left of the run.
-    cycles: Vec<u64>,
+    cycles: Box<[u64]>,
     /// Most entries since the frame began.
     peak: usize,
-    /// Whether any entry was prompt since the frame began.
-    prompt_before: u64,
 }
 
 impl Fifo {
@@ -34,76 +38,77 @@ impl Fifo {
         Self {
             credits: vec![0; depth].into_boxed_slice(),
             next: 0,
+            tail: 0,
             held: 0,
             cursor: 0,
+            oldest: 0,
             prompt: 0,
-            cycles: vec![0; depth + 1],
-            peak: 0,
             prompt_before: 0,
+            cycles: vec![0; depth + 1].into_boxed_slice(),
+            peak: 0,
         }
     }
 
-    /// The first cycle in which the next token may be pushed.
+    /// Pushes a token, behind fewer than `depth` of which it is not known when they are accepted.
+    /// Returns the first cycle in which there is room for it.
     #[inline(always)]
-    pub(super) fn room(&self) -> u64 {
-        self.credits[self.next]
+    pub(super) fn push(&mut self) -> u64 {
+        let room = self.credits[self.tail];
+        self.tail = self.after(self.tail);
+        room
     }
 
-    /// The same for the token after `waiting` more, fewer than `depth`, which are not accepted.
+    /// The first cycle in which there is room for the token after `waiting` more, fewer than
+    /// `depth`, which are not accepted.
     pub(super) fn room_behind(&self, waiting: usize) -> u64 {
         self.credits[(self.next + waiting) % self.credits.len()]
+    }
+
+    fn after(&self, index: usize) -> usize {
+        if index + 1 == self.credits.len() { 0 } else { index + 1 }
     }
 
     /// The next token, seen from the start of cycle `arrived`, was accepted in cycle `accept`.
     #[inline(always)]
     pub(super) fn pass(&mut self, arrived: u64, accept: u64) {
+        if self.held > 0 {
+            self.pop_until(arrived);
+        }
         if self.held == 0 && accept == arrived {
             self.prompt += 1;
         } else {
-            self.queue(arrived, accept);
+            self.queue(arrived);
         }
         self.credits[self.next] = accept + 1;
-        self.next += 1;
-        if self.next == self.credits.len() {
-            self.next = 0;
-        }
+        self.next = self.after(self.next);
     }
 
-    /// The same where it waited, or found others.
-    fn queue(&mut self, arrived: u64, accept: u64) {
-        self.pop_until(arrived);
-        if self.held == 0 && accept == arrived {
-            self.prompt += 1;
-            return;
+    /// It waited, or found others.
+    #[inline(always)]
+    fn queue(&mut self, arrived: u64) {
+        if self.held == 0 {
+            self.oldest = self.next;
+        } else {
+            self.cycles[self.held] += arrived - self.cursor;
         }
-        self.advance(arrived);
+        self.cursor = arrived;
         self.held += 1;
         self.peak = self.peak.max(self.held);
     }
 
     /// Takes out the entries that were accepted before `cycle`.
+    #[inline(always)]
     fn pop_until(&mut self, cycle: u64) {
         while self.held > 0 {
-            let oldest = if self.next >= self.held {
-                self.next - self.held
-            } else {
-                self.next + self.credits.len() - self.held
-            };
-            let seen = self.credits[oldest];
+            let seen = self.credits[self.oldest];
             if seen > cycle {
                 break;
             }
-            self.advance(seen);
+            self.cycles[self.held] += seen - self.cursor;
+            self.cursor = seen;
             self.held -= 1;
+            self.oldest = self.after(self.oldest);
         }
-    }
-
-    /// Cycles with no entries are not counted here.
-    fn advance(&mut self, cycle: u64) {
-        if self.held > 0 {
-            self.cycles[self.held] += cycle - self.cursor;
-        }
-        self.cursor = cycle;
     }
 
     /// The most entries at the start of any cycle of the frame that ends here.
@@ -123,10 +128,12 @@ impl Fifo {
         }
         // What was accepted in that cycle is still held at its start.
         self.pop_until(elapsed);
-        self.advance(elapsed);
+        if self.held > 0 {
+            self.cycles[self.held] += elapsed - self.cursor;
+        }
         self.cycles[0] += elapsed;
         self.credits.fill(0);
-        (self.next, self.cursor, self.held) = (0, 0, 0);
+        (self.next, self.tail, self.cursor, self.held) = (0, 0, 0, 0);
     }
 
     /// The histogram.
@@ -134,7 +141,7 @@ impl Fifo {
         self.cycles[1] += self.prompt;
         let some: u64 = self.cycles[1..].iter().sum();
         self.cycles[0] -= some;
-        self.cycles
+        self.cycles.into_vec()
     }
 }
 
@@ -340,9 +347,8 @@ impl Lanes {
     /// A lane took its token.
     #[inline(always)]
     pub(super) fn took(&mut self) {
-        self.turn += 1;
-        if self.turn >= self.len() {
-            self.turn = 0;
+        if !self.others.is_empty() {
+            self.turn = (self.turn + 1) % self.len();
         }
     }
 

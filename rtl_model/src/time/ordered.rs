@@ -247,7 +247,7 @@ impl<B: Block> Stage<B> {
             fifo.pass(at, accept);
         }
         let before = self.outputs.len();
-        let cost = self.block.accept(token, &mut Outputs { queue: &mut self.outputs, accept });
+        let cost = self.block.accept(&token, &mut Outputs { queue: &mut self.outputs, accept });
         assert!(cost.interval >= 1, "an initiation interval is at least a cycle");
         let next = accept + cost.interval;
         self.next_accept = accept + 1;

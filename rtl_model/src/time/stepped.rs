@@ -33,10 +33,8 @@ struct Stage<B: Block> {
     shape: Shape,
     /// The FIFO before it; before the first, what the host has still to send.
     fifo: VecDeque<Entry<B::Token>>,
-    /// Tokens in flight, oldest first.
-    flights: VecDeque<Flight>,
-    /// Outputs of the tokens in flight, in order, and when each is ready.
-    outputs: VecDeque<(B::Token, u64)>,
+    /// What is in flight, in order: the outputs of tokens, and tokens that have none.
+    flights: VecDeque<Flight<B::Token>>,
     lanes: Vec<Lane>,
     round_robin: usize,
     /// The cycle after the last acceptance.
@@ -56,14 +54,16 @@ struct Entry<T> {
     frame: usize,
 }
 
+/// An output of a token in flight, or a token that has none.
 #[derive(Clone, Copy, Debug)]
-struct Flight {
+struct Flight<T> {
+    output: Option<T>,
+    /// The first cycle in which it can leave.
+    ready: u64,
+    /// Whether its token leaves with it.
+    last: bool,
     lane: usize,
     frame: usize,
-    /// When it is done, if it emits nothing.
-    done: u64,
-    /// Outputs that have not left.
-    outputs: usize,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -104,6 +104,15 @@ impl Lane {
         std::mem::take(&mut self.cycles[state as usize])
     }
 
+    /// What it does in this cycle, and the frame whose cycle it is.
+    fn charge(&mut self, state: State, frame: usize, times: &mut [StageTimes]) {
+        if self.frame != frame {
+            self.enter(times);
+            self.frame = frame;
+        }
+        self.state = state;
+    }
+
     /// Enters what it did with tokens of its frame.
     fn enter(&mut self, times: &mut [StageTimes]) {
         let Some(times) = times.get_mut(self.frame) else { return };
@@ -131,13 +140,19 @@ impl Lane {
 
 /// Collects the outputs of one token.
 struct Outputs<'a, T> {
-    queue: &'a mut VecDeque<(T, u64)>,
+    flights: &'a mut VecDeque<Flight<T>>,
     now: u64,
+    lane: usize,
+    frame: usize,
+    any: bool,
 }
 
 impl<T> Emit<T> for Outputs<'_, T> {
     fn emit(&mut self, token: T, offset: u64) {
-        self.queue.push_back((token, self.now + offset));
+        let Self { now, lane, frame, .. } = *self;
+        let ready = now + offset;
+        self.flights.push_back(Flight { output: Some(token), ready, last: false, lane, frame });
+        self.any = true;
     }
 }
 
@@ -224,14 +239,20 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         for k in 0..self.stages.len() {
             let (stages, after) = self.stages.split_at_mut(k + 1);
             let stage = &mut stages[k];
-            stage.count_last_cycle(self.now);
-            if stage.is_empty() {
-                stage.observe(self.now, None, 0);
-                continue;
+            let pushed = stage.begin(self.now);
+            if !stage.fifo.is_empty() {
+                stage.accept(self.now, granted == Some(k), &mut self.probe);
             }
-            stage.accept(self.now, granted == Some(k), &mut self.probe);
-            stage.emit(self.now, after.first_mut(), &mut self.left, &mut self.probe);
-            stage.note_peak(self.now);
+            if stage.flights.is_empty() {
+                stage.idle(self.now);
+            } else {
+                stage.emit(self.now, after.first_mut(), &mut self.left, &mut self.probe);
+            }
+            if let Some(frame) = pushed {
+                // At the start of the next cycle.
+                let peak = &mut stage.times[frame].fifo_peak;
+                *peak = (*peak).max(stage.fifo.len() as u64);
+            }
         }
         self.now += 1;
     }
@@ -263,7 +284,6 @@ impl<B: Block> Stage<B> {
             shape,
             fifo: VecDeque::new(),
             flights: VecDeque::new(),
-            outputs: VecDeque::new(),
             lanes: vec![Lane::default(); shape.lanes as usize],
             round_robin: 0,
             next_accept: 0,
@@ -310,8 +330,9 @@ impl<B: Block> Stage<B> {
         }
     }
 
-    /// Counts what the lanes did in the cycle before this one.
-    fn count_last_cycle(&mut self, now: u64) {
+    /// Begins a cycle: counts what the lanes did in the one before. Returns the frame of the token
+    /// that has just been pushed and is not yet visible, if one was.
+    fn begin(&mut self, now: u64) -> Option<usize> {
         for lane in &mut self.lanes {
             lane.cycles[lane.state as usize] += 1;
             lane.used += u64::from(lane.next_accept >= now && now > 0);
@@ -320,8 +341,10 @@ impl<B: Block> Stage<B> {
         if let Some(held) = self.occupancy.get_mut(self.held) {
             *held += u64::from(now > 0);
         }
-        let pushed_now = self.fifo.back().is_some_and(|newest| newest.visible > now);
-        self.held = self.fifo.len() - usize::from(pushed_now);
+        let pushed = self.fifo.back().filter(|newest| newest.visible > now);
+        let pushed = pushed.map(|newest| newest.frame);
+        self.held = self.fifo.len() - usize::from(pushed.is_some());
+        pushed
     }
 
     /// Accepts the token at the door, if a lane can take it.
@@ -339,11 +362,14 @@ impl<B: Block> Stage<B> {
         }
         let Some(lane) = self.lane(now) else { return };
         let Entry { token, frame, .. } = self.fifo.pop_front().expect("a token is visible");
-        let before = self.outputs.len();
-        let cost = self.block.accept(token, &mut Outputs { queue: &mut self.outputs, now });
-        let outputs = self.outputs.len() - before;
-        let done = now + cost.latency;
-        self.flights.push_back(Flight { lane, frame, done, outputs });
+        let mut outputs = Outputs { flights: &mut self.flights, now, lane, frame, any: false };
+        let cost = self.block.accept(&token, &mut outputs);
+        if outputs.any {
+            self.flights.back_mut().expect("an output").last = true;
+        } else {
+            let ready = now + cost.latency;
+            self.flights.push_back(Flight { output: None, ready, last: true, lane, frame });
+        }
         self.next_accept = now + 1;
         probe.accepted(self.index, lane, now);
         let times = &mut self.times[frame];
@@ -369,87 +395,64 @@ impl<B: Block> Stage<B> {
     fn emit(
         &mut self,
         now: u64,
-        mut next: Option<&mut Self>,
+        next: Option<&mut Self>,
         left: &mut [u64],
         probe: &mut impl Probe,
     ) {
-        let mut emitter = None;
-        let mut retired = 0;
-        while let Some(flight) = self.flights.get_mut(retired) {
-            if flight.outputs > 0 {
-                let full = |next: &&mut Self| next.fifo.len() >= next.shape.depth as usize;
-                if emitter.is_some() || self.outputs[0].1 > now || next.as_ref().is_some_and(full) {
-                    break;
-                }
-                let (token, _) = self.outputs.pop_front().expect("it is ready");
-                emitter = Some(retired);
-                flight.outputs -= 1;
-                flight.done = now;
-                self.times[flight.frame].tokens_out += 1;
-                probe.emitted(self.index, now);
-                if let Some(next) = &mut next {
-                    let frame = flight.frame;
-                    next.fifo.push_back(Entry { token, visible: now + 1, frame });
-                }
-                if flight.outputs > 0 {
-                    break;
-                }
-            } else if flight.done > now {
+        let room = next.as_ref().is_none_or(|next| next.fifo.len() < next.shape.depth as usize);
+        self.observe(now, room);
+        let mut next = next;
+        let mut emitted = false;
+        while let Some(&Flight { output, ready, last, lane, frame }) = self.flights.front() {
+            if ready > now || output.is_some() && (emitted || !room) {
                 break;
             }
-            retired += 1;
-        }
-        self.observe(now, emitter, retired);
-        for _ in 0..retired {
-            let flight = self.flights.pop_front().expect("it retires");
-            self.lanes[flight.lane].in_flight -= 1;
-            left[flight.frame] = now;
-            probe.left(self.index, now);
+            self.flights.pop_front();
+            if let Some(token) = output {
+                emitted = true;
+                self.times[frame].tokens_out += 1;
+                probe.emitted(self.index, now);
+                if let Some(next) = &mut next {
+                    next.fifo.push_back(Entry { token, visible: now + 1, frame });
+                }
+            }
+            if last {
+                self.lanes[lane].in_flight -= 1;
+                left[frame] = now;
+                probe.left(self.index, now);
+            }
         }
     }
 
-    /// What each lane does in this cycle, by its oldest token. The first `retired` tokens leave in
-    /// it, and the token `emitter` has emitted.
-    fn observe(&mut self, now: u64, emitter: Option<usize>, retired: usize) {
-        let mut first_output = 0;
-        for (k, flight) in self.flights.iter().enumerate() {
+    /// What each lane does in this cycle, by its oldest token: before anything leaves.
+    fn observe(&mut self, now: u64, room: bool) {
+        // Whether order lets an output leave: what is before it leaves now, and is no output.
+        let mut turn = true;
+        for flight in &self.flights {
             let lane = &mut self.lanes[flight.lane];
+            let ready = flight.ready <= now;
             if matches!(lane.state, State::Idle | State::Waiting) {
-                if lane.frame != flight.frame {
-                    lane.enter(&mut self.times);
-                    lane.frame = flight.frame;
-                }
-                let waits =
-                    flight.outputs > 0 && emitter != Some(k) && self.outputs[first_output].1 <= now;
-                lane.state = match (waits, k == retired && emitter.is_none()) {
-                    (false, _) => State::Busy,
-                    (true, true) => State::Blocked,
+                let state = match (flight.output.is_some() && ready, turn) {
                     (true, false) => State::BlockedByOrder,
+                    (true, true) if !room => State::Blocked,
+                    _ => State::Busy,
                 };
+                lane.charge(state, flight.frame, &mut self.times);
                 if self.shape.lanes == 1 {
                     return;
                 }
             }
-            first_output += flight.outputs;
+            turn &= flight.output.is_none() && ready;
         }
-        for lane in &mut self.lanes {
-            // The initiation interval of its last token is not over.
-            if matches!(lane.state, State::Idle | State::Waiting) && now < lane.next_accept {
-                if lane.frame != lane.last {
-                    lane.enter(&mut self.times);
-                    lane.frame = lane.last;
-                }
-                lane.state = State::Busy;
-            }
-        }
+        self.idle(now);
     }
 
-    /// Most entries of the FIFO, at the start of the next cycle.
-    fn note_peak(&mut self, now: u64) {
-        let Some(newest) = self.fifo.back() else { return };
-        if newest.visible == now + 1 {
-            let peak = &mut self.times[newest.frame].fifo_peak;
-            *peak = (*peak).max(self.fifo.len() as u64);
+    /// Lanes with nothing in flight, of whose last token the initiation interval is not over.
+    fn idle(&mut self, now: u64) {
+        for lane in &mut self.lanes {
+            if now < lane.next_accept && matches!(lane.state, State::Idle | State::Waiting) {
+                lane.charge(State::Busy, lane.last, &mut self.times);
+            }
         }
     }
 

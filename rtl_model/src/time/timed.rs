@@ -1,11 +1,15 @@
-//! The engine that users run: visits each token once, depth first, and computes its times by the
-//! (max,+) recurrence of [`super`].
+//! The engine that users run: visits each token once and computes its times by the (max,+)
+//! recurrence of [`super`].
 //!
 //! ```text
-//!   feed ─► accept ─► emit ─┬► accept ─► emit ─┬► ..     an output goes all the way down before
-//!                           │                  └► ..     its successor is looked at, so what a
-//!                           └► accept ─► ..              FIFO must remember is when its last
-//! ```                                                    `depth` tokens were taken
+//!   feed ─► inbox ─► accept ─► emit ─► inbox ─► accept ─► emit ─► inbox ─► ..
+//!           depth tokens               depth tokens               depth tokens
+//! ```
+//!
+//! An output needs to know when the token `depth` before it was taken downstream, and nothing later
+//! than that. So tokens gather before a block until there are `depth` of them, and then it takes
+//! them all: what is done for each stays in a loop, and what a FIFO must remember is when its last
+//! `depth` tokens were taken.
 //!
 //! Memory is the FIFOs' depths and the tokens in flight, whatever the length of the run. Which
 //! operand of a maximum won is the attribution: between `ready` and `turn` a block waits for its
@@ -36,8 +40,7 @@ pub struct Exact;
 impl Rules for Exact {}
 
 /// The engine.
-#[derive(Clone, Debug)]
-pub struct Timed<B, P = (), R = Exact> {
+pub struct Timed<B: Block, P = (), R = Exact> {
     stages: Vec<Stage<B>>,
     policy: Frames,
     frames: Vec<FrameTimes>,
@@ -48,7 +51,6 @@ pub struct Timed<B, P = (), R = Exact> {
 }
 
 /// What all stages see.
-#[derive(Clone, Debug)]
 struct Run<P> {
     probe: P,
     frame: usize,
@@ -56,10 +58,12 @@ struct Run<P> {
     port: u64,
 }
 
-#[derive(Clone, Debug)]
-struct Stage<B> {
+struct Stage<B: Block> {
     index: usize,
     block: B,
+    /// Tokens that have arrived and when, of which it is not yet known when they are accepted.
+    inbox: Vec<(B::Token, u64)>,
+    depth: usize,
     /// The FIFO before it; the host's tokens wait in none.
     fifo: Option<Fifo>,
     lanes: Lanes,
@@ -87,6 +91,8 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
             Stage {
                 index,
                 block,
+                inbox: Vec::with_capacity(shape.depth as usize),
+                depth: shape.depth as usize,
                 fifo: (index > 0).then(|| Fifo::new(shape.depth)),
                 lanes: Lanes::new(&shape),
                 shares_port: shape.shares_port,
@@ -109,11 +115,18 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
 
     /// The host sends a token, as soon as the first block takes it.
     pub fn feed(&mut self, token: B::Token) {
-        push::<B, P, R>(&mut self.stages, token, 0, &mut self.run);
+        let first = self.stages.first_mut().expect("a chain has blocks");
+        first.inbox.push((token, 0));
+        if first.inbox.len() == first.depth {
+            take_all::<B, P, R>(&mut self.stages, &mut self.run);
+        }
     }
 
     /// The frame's last token has been fed.
     pub fn end_frame(&mut self) {
+        for k in 0..self.stages.len() {
+            take_all::<B, P, R>(&mut self.stages[k..], &mut self.run);
+        }
         let before = self.elapsed;
         let left = self.stages.iter().map(|stage| stage.left).max();
         let elapsed = left.unwrap_or(0).max(before);
@@ -139,7 +152,8 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
     /// When tokens were fed after the last end of a frame.
     #[must_use]
     pub fn finish(mut self) -> (Times, P) {
-        assert!(self.stages.iter().all(|stage| stage.tokens_in == 0), "the last frame has ended");
+        let ended = |stage: &Stage<B>| stage.inbox.is_empty() && stage.tokens_in == 0;
+        assert!(self.stages.iter().all(ended), "the last frame has ended");
         for (k, stage) in self.stages.iter_mut().enumerate() {
             let mut times: Vec<_> =
                 self.frames.iter_mut().map(|f| std::mem::take(&mut f.stages[k])).collect();
@@ -159,7 +173,7 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
     }
 }
 
-impl<B> Stage<B> {
+impl<B: Block> Stage<B> {
     fn counts(&mut self) -> StageTimes {
         StageTimes {
             tokens_in: std::mem::take(&mut self.tokens_in),
@@ -186,18 +200,29 @@ impl<B> Stage<B> {
     }
 }
 
-/// Takes a token through the first of `stages`, and what it makes of it through the rest. The token
-/// is seen there from the start of cycle `arrived`.
-fn push<B: Block, P: Probe, R: Rules>(
-    stages: &mut [Stage<B>],
-    token: B::Token,
+/// The first of `stages` takes all that has arrived.
+fn take_all<B: Block, P: Probe, R: Rules>(stages: &mut [Stage<B>], run: &mut Run<P>) {
+    let (stage, rest) = stages.split_first_mut().expect("a chain has blocks");
+    let mut inbox = std::mem::take(&mut stage.inbox);
+    for (token, arrived) in &inbox {
+        take::<B, P, R>(stage, token, *arrived, rest, run);
+    }
+    inbox.clear();
+    stage.inbox = inbox;
+}
+
+/// A stage takes a token, seen there from the start of cycle `arrived`.
+#[inline(always)]
+fn take<B: Block, P: Probe, R: Rules>(
+    stage: &mut Stage<B>,
+    token: &B::Token,
     arrived: u64,
+    rest: &mut [Stage<B>],
     run: &mut Run<P>,
 ) {
-    let (stage, rest) = stages.split_first_mut().expect("a chain has blocks");
     let mut from = arrived.max(stage.next_accept);
     if R::PORT_BY_EVALUATION && stage.shares_port {
-        from = by_evaluation(stage, &token, from, &mut run.port);
+        from = by_evaluation(stage, token, from, &mut run.port);
     }
     let (lane, accept) = stage.lanes.choose(from);
     let lane = if R::LANES { lane } else { stage.lanes.len() - 1 - lane };
@@ -252,8 +277,8 @@ fn by_evaluation<B: Block>(
     accept
 }
 
-/// Where a token's outputs go: on down the chain.
-struct Outputs<'a, B, P, R> {
+/// Where a token's outputs go: before the next block.
+struct Outputs<'a, B: Block, P, R> {
     stage: usize,
     accept: u64,
     /// The first cycle in which order lets the next output leave.
@@ -274,8 +299,16 @@ impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
         let ready = self.accept + offset;
         let turn = ready.max(self.turn);
         let first = ready.max(self.head);
-        let room = self.rest.first().and_then(|next| next.fifo.as_ref()).map_or(0, Fifo::room);
-        let at = turn.max(room.saturating_sub(1 - R::CREDIT));
+        let mut at = turn;
+        if let [next, ..] = &*self.rest {
+            if next.inbox.len() == next.depth {
+                take_all::<B, P, R>(self.rest, self.run);
+            }
+            let next = &mut self.rest[0];
+            let fifo = next.fifo.as_mut().expect("blocks behind the first have a FIFO");
+            at = turn.max(fifo.push().saturating_sub(1 - R::CREDIT));
+            next.inbox.push((token, at + 1));
+        }
         if at > first {
             self.by_order += turn.saturating_sub(first);
             self.blocked += at - turn.max(first);
@@ -284,8 +317,5 @@ impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
         self.head = at + 1;
         self.count += 1;
         self.run.probe.emitted(self.stage, at);
-        if !self.rest.is_empty() {
-            push::<B, P, R>(self.rest, token, at + 1, self.run);
-        }
     }
 }

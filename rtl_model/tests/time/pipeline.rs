@@ -42,7 +42,7 @@ pub(crate) struct Dice {
 impl Block for Dice {
     type Token = u64;
 
-    fn accept(&mut self, token: u64, out: &mut impl Emit<u64>) -> Cost {
+    fn accept(&mut self, &token: &u64, out: &mut impl Emit<u64>) -> Cost {
         self.seen += 1;
         let mut random = Random(token ^ self.salt ^ self.seen << 32);
         let interval = random.within(1, self.interval_max);

@@ -25,7 +25,7 @@ impl Script {
 impl Block for Script {
     type Token = ();
 
-    fn accept(&mut self, (): (), out: &mut impl Emit<()>) -> Cost {
+    fn accept(&mut self, (): &(), out: &mut impl Emit<()>) -> Cost {
         let (interval, offsets) = &self.costs[self.next % self.costs.len()];
         self.next += 1;
         offsets.iter().for_each(|&offset| out.emit((), offset.into()));
