@@ -122,14 +122,15 @@ impl Strip {
     /// Hands its triangles to `take`, in order: as [`Self::triangles`], and faster.
     #[inline]
     pub fn for_each(&self, mut take: impl FnMut(Triangle)) {
-        if let Kind::Cells { lower } = self.kind {
-            let cells = u16::from(self.outer_segments);
-            let half = cells.div_ceil(2);
-            (0..half).for_each(|k| self.cell(k, lower).into_iter().for_each(&mut take));
-            (half..cells).for_each(|k| self.cell(k, !lower).into_iter().for_each(&mut take));
-        } else {
+        let Kind::Cells { lower } = self.kind else {
             let mut walk = self.triangles();
-            (0..self.count()).for_each(|_| take(walk.step()));
+            return (0..self.count()).for_each(|_| take(walk.step()));
+        };
+        let cells = u16::from(self.outer_segments);
+        for k in 0..cells {
+            let [first, second] = self.cell(k, (2 * k < cells) == lower);
+            take(first);
+            take(second);
         }
     }
 

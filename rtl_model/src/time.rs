@@ -66,6 +66,21 @@ pub trait Block {
         let _ = token;
         None
     }
+
+    /// Shows itself to `visitor`. A block that is one of several kinds shows which, so that it is
+    /// asked once for many tokens.
+    fn visit(&mut self, visitor: impl Visitor<Self::Token>)
+    where
+        Self: Sized,
+    {
+        visitor.visit(self);
+    }
+}
+
+/// Does something with a block, of whatever kind.
+pub trait Visitor<T> {
+    /// Does it.
+    fn visit(self, block: &mut impl Block<Token = T>);
 }
 
 /// Takes the outputs of a token.

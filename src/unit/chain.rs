@@ -11,7 +11,7 @@ use rtl_model::counter::Block as Name;
 use rtl_model::level;
 use rtl_model::patch::Triangle;
 use rtl_model::strip::{Segments, Strip};
-use rtl_model::time::{Block, Cost, Emit, Shape};
+use rtl_model::time::{Block, Cost, Emit, Shape, Visitor};
 use rtl_model::{emit, evaluate, stitch};
 
 /// Levels of a patch: four edges and two interior directions.
@@ -117,19 +117,249 @@ impl Steady {
 /// A block of a chain.
 #[derive(Clone, Debug)]
 pub(super) enum Stage {
-    Link(LinkSchedule),
-    Memory(MemorySchedule),
-    /// Transform and port.
-    Points(Steady),
-    Assemble(Steady),
-    Clip(Steady, bool),
-    Backface(Steady),
-    Level(Steady),
-    Place(Steady),
-    Evaluate(evaluate::Schedule),
-    Stitch(stitch::Schedule),
-    Emit(emit::Schedule),
-    VertexShader(Steady, Option<Store>),
+    Link(Link),
+    Memory(Memory),
+    Points(Points),
+    Assemble(Assemble),
+    Clip(Clip),
+    Backface(Backface),
+    Level(Level),
+    Place(Place),
+    Evaluate(Evaluate),
+    Stitch(Stitch),
+    Emit(EmitBlock),
+    VertexShader(VertexShader),
+}
+
+/// `$body` of the block that `$stage` is.
+macro_rules! of_kind {
+    ($stage:expr, $block:ident => $body:expr) => {
+        match $stage {
+            Stage::Link($block) => $body,
+            Stage::Memory($block) => $body,
+            Stage::Points($block) => $body,
+            Stage::Assemble($block) => $body,
+            Stage::Clip($block) => $body,
+            Stage::Backface($block) => $body,
+            Stage::Level($block) => $body,
+            Stage::Place($block) => $body,
+            Stage::Evaluate($block) => $body,
+            Stage::Stitch($block) => $body,
+            Stage::Emit($block) => $body,
+            Stage::VertexShader($block) => $body,
+        }
+    };
+}
+
+impl Block for Stage {
+    type Token = Token;
+
+    #[inline]
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        of_kind!(self, block => block.accept(token, out))
+    }
+
+    fn port(&self, token: &Token) -> Option<u64> {
+        of_kind!(self, block => block.port(token))
+    }
+
+    fn visit(&mut self, visitor: impl Visitor<Token>) {
+        of_kind!(self, block => visitor.visit(block));
+    }
+}
+
+/// A token that does not belong here: the chain is wired wrongly.
+#[cold]
+fn misled(token: &Token) -> ! {
+    unreachable!("{token:?} came to a block that does not take it")
+}
+
+/// The link from the host.
+#[derive(Clone, Debug)]
+pub(super) struct Link(LinkSchedule);
+
+impl Block for Link {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        match *token {
+            Token::Parcel(parcel, _) => one(token, self.0.accept(&parcel), out),
+            Token::Vertices(parcel, count) => {
+                let cost = self.0.accept(&parcel);
+                let arrived = |k: u64| (k * cost.latency).div_ceil(count.into());
+                (1..=count.into()).for_each(|k| out.emit(Token::Vertex, arrived(k)));
+                cost
+            }
+            _ => misled(token),
+        }
+    }
+}
+
+/// Device memory, which hands on control points.
+#[derive(Clone, Debug)]
+pub(super) struct Memory(MemorySchedule);
+
+impl Block for Memory {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Parcel(parcel, work) = *token else { misled(token) };
+        let points = self.0.accept(&parcel);
+        let count = u64::from(parcel.points);
+        for k in 0..count {
+            out.emit(Token::Point(work.filter(|_| k + 1 == count)), points.offset(k));
+        }
+        points.cost()
+    }
+
+    fn port(&self, token: &Token) -> Option<u64> {
+        let Token::Parcel(parcel, _) = token else { misled(token) };
+        self.0.port(parcel)
+    }
+}
+
+/// The control-point shader, and the port.
+#[derive(Clone, Debug)]
+pub(super) struct Points(Steady);
+
+impl Block for Points {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        one(token, self.0.cost(1), out)
+    }
+}
+
+/// Points to patches.
+#[derive(Clone, Debug)]
+pub(super) struct Assemble(Steady);
+
+impl Block for Assemble {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Point(work) = *token else { misled(token) };
+        let cost = self.0.cost(1);
+        if let Some(work) = work {
+            out.emit(Token::Patch(work), cost.latency);
+        }
+        cost
+    }
+}
+
+/// Trivial clipping, and whether it is enabled.
+#[derive(Clone, Debug)]
+pub(super) struct Clip(Steady, bool);
+
+impl Block for Clip {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        let cost = if self.1 { self.0.cost(1) } else { self.0.idle() };
+        if work.fate == Fate::Clipped { cost } else { one(token, cost, out) }
+    }
+}
+
+/// Back-face removal.
+#[derive(Clone, Debug)]
+pub(super) struct Backface(Steady);
+
+impl Block for Backface {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        let cost = if work.tested { self.0.cost(1) } else { self.0.idle() };
+        if work.fate == Fate::Culled { cost } else { one(token, cost, out) }
+    }
+}
+
+/// Levels.
+#[derive(Clone, Debug)]
+pub(super) struct Level(Steady);
+
+impl Block for Level {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        one(token, self.0.cost(work.levels), out)
+    }
+}
+
+/// Parameter lists.
+#[derive(Clone, Debug)]
+pub(super) struct Place(Steady);
+
+impl Block for Place {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        let divides = work.reciprocals > 0;
+        let cost = if divides { self.0.cost(work.reciprocals) } else { self.0.idle() };
+        one(token, cost, out)
+    }
+}
+
+/// Points of the surface, in strips.
+#[derive(Clone, Debug)]
+pub(super) struct Evaluate(evaluate::Schedule);
+
+impl Block for Evaluate {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        self.0.accept(work.segments, &mut Strips(out))
+    }
+}
+
+/// Triangles.
+#[derive(Clone, Debug)]
+pub(super) struct Stitch(stitch::Schedule);
+
+impl Block for Stitch {
+    type Token = Token;
+
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Strip(strip) = token else { misled(token) };
+        self.0.accept(strip, &mut Triangles { out, first: strip.first })
+    }
+}
+
+/// Perspective divide and output.
+#[derive(Clone, Debug)]
+pub(super) struct EmitBlock(emit::Schedule);
+
+impl Block for EmitBlock {
+    type Token = Token;
+
+    #[inline(always)]
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let Token::Triangle(triangle, first) = *token else { misled(token) };
+        self.0.accept(triangle, first, &mut Vertices(out))
+    }
+}
+
+/// The vertex shader, and where its vertices are written, if they are.
+#[derive(Clone, Debug)]
+pub(super) struct VertexShader(Steady, Option<Store>);
+
+impl Block for VertexShader {
+    type Token = Token;
+
+    #[inline(always)]
+    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+        let cost = shade(self.0, &mut self.1);
+        one(token, cost, out)
+    }
+
+    fn port(&self, _token: &Token) -> Option<u64> {
+        let store = self.1.as_ref().filter(|store| store.shared)?;
+        Some(store.writes.whole_cycles(store.bytes))
+    }
 }
 
 /// Where shaded vertices are written to memory.
@@ -140,97 +370,10 @@ pub(super) struct Store {
     shared: bool,
 }
 
-impl Block for Stage {
-    type Token = Token;
-
-    #[inline]
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
-        match (self, token) {
-            (Self::Emit(emit), &Token::Triangle(triangle, first)) => {
-                emit.accept(triangle, first, &mut Vertices(out))
-            }
-            (Self::VertexShader(shader, store), Token::Vertex) => {
-                let cost = shade(*shader, store);
-                out.emit(Token::Vertex, cost.latency);
-                cost
-            }
-            (Self::Stitch(stitch), Token::Strip(strip)) => {
-                stitch.accept(strip, &mut Triangles { out, first: strip.first })
-            }
-            (stage, token) => stage.accept_patch(*token, out),
-        }
-    }
-
-    fn port(&self, token: &Token) -> Option<u64> {
-        match (self, token) {
-            (Self::Memory(memory), Token::Parcel(parcel, _)) => memory.port(parcel),
-            (Self::VertexShader(_, Some(store)), _) if store.shared => {
-                Some(store.writes.whole_cycles(store.bytes))
-            }
-            _ => None,
-        }
-    }
-}
-
-impl Stage {
-    /// What flows before there are strips.
-    fn accept_patch(&mut self, token: Token, out: &mut impl Emit<Token>) -> Cost {
-        match (self, token) {
-            (Self::Link(link), Token::Parcel(parcel, _)) => one(token, link.accept(&parcel), out),
-            (Self::Link(link), Token::Vertices(parcel, count)) => {
-                let cost = link.accept(&parcel);
-                let arrived = |k: u64| (k * cost.latency).div_ceil(count.into());
-                (1..=count.into()).for_each(|k| out.emit(Token::Vertex, arrived(k)));
-                cost
-            }
-            (Self::Memory(memory), Token::Parcel(parcel, work)) => {
-                let points = memory.accept(&parcel);
-                let count = u64::from(parcel.points);
-                for k in 0..count {
-                    out.emit(Token::Point(work.filter(|_| k + 1 == count)), points.offset(k));
-                }
-                points.cost()
-            }
-            (Self::Points(steady), Token::Point(_)) => one(token, steady.cost(1), out),
-            (Self::Assemble(steady), Token::Point(work)) => {
-                let cost = steady.cost(1);
-                if let Some(work) = work {
-                    out.emit(Token::Patch(work), cost.latency);
-                }
-                cost
-            }
-            (stage, Token::Patch(work)) => stage.accept_work(work, out),
-            (stage, token) => unreachable!("{token:?} does not come to {stage:?}"),
-        }
-    }
-
-    /// Patches, each with what is known of it.
-    fn accept_work(&mut self, work: Work, out: &mut impl Emit<Token>) -> Cost {
-        let patch = Token::Patch(work);
-        match self {
-            Self::Clip(steady, enabled) => {
-                let cost = if *enabled { steady.cost(1) } else { steady.idle() };
-                if work.fate == Fate::Clipped { cost } else { one(patch, cost, out) }
-            }
-            Self::Backface(steady) => {
-                let cost = if work.tested { steady.cost(1) } else { steady.idle() };
-                if work.fate == Fate::Culled { cost } else { one(patch, cost, out) }
-            }
-            Self::Level(steady) => one(patch, steady.cost(work.levels), out),
-            Self::Place(steady) => {
-                let divides = work.reciprocals > 0;
-                let cost = if divides { steady.cost(work.reciprocals) } else { steady.idle() };
-                one(patch, cost, out)
-            }
-            Self::Evaluate(evaluate) => evaluate.accept(work.segments, &mut Strips(out)),
-            stage => unreachable!("a patch does not come to {stage:?}"),
-        }
-    }
-}
-
 /// Emits the one output of a token when it is done.
-fn one(token: Token, cost: Cost, out: &mut impl Emit<Token>) -> Cost {
-    out.emit(token, cost.latency);
+#[inline(always)]
+fn one(token: &Token, cost: Cost, out: &mut impl Emit<Token>) -> Cost {
+    out.emit(*token, cost.latency);
     cost
 }
 
@@ -313,36 +456,37 @@ fn stage(block: Name, config: &Config) -> (Stage, Shape) {
         return if block == Name::Link {
             let link = LinkSchedule::new(config);
             let shape = link.shape();
-            (Stage::Link(link), shape)
+            (Stage::Link(Link(link)), shape)
         } else {
             let memory = MemorySchedule::new(config);
             let shape = memory.shape();
-            (Stage::Memory(memory), shape)
+            (Stage::Memory(Memory(memory)), shape)
         };
     };
     let steady = Steady::of(&costs);
     let mut shape = costs.shape();
     let stage = match block {
-        Name::Transform | Name::Port => Stage::Points(steady),
-        Name::Assemble => Stage::Assemble(steady),
-        Name::Clip => Stage::Clip(steady, config.clip.enabled),
-        Name::Backface => Stage::Backface(steady),
-        Name::Level => Stage::Level(steady),
-        Name::Place => Stage::Place(steady),
-        Name::Evaluate => Stage::Evaluate(evaluate::Schedule {
+        Name::Transform | Name::Port => Stage::Points(Points(steady)),
+        Name::Assemble => Stage::Assemble(Assemble(steady)),
+        Name::Clip => Stage::Clip(Clip(steady, config.clip.enabled)),
+        Name::Backface => Stage::Backface(Backface(steady)),
+        Name::Level => Stage::Level(Level(steady)),
+        Name::Place => Stage::Place(Place(steady)),
+        Name::Evaluate => Stage::Evaluate(Evaluate(evaluate::Schedule {
             interval: costs.interval,
             latency: costs.latency,
             setup: config.block.evaluate.setup,
             scheme: config.evaluate.scheme,
-        }),
+        })),
         Name::Stitch => {
-            Stage::Stitch(stitch::Schedule { interval: costs.interval, latency: costs.latency })
+            let (interval, latency) = (costs.interval, costs.latency);
+            Stage::Stitch(Stitch(stitch::Schedule { interval, latency }))
         }
-        Name::Emit => Stage::Emit(emit::Schedule::new(costs.interval, costs.latency)),
+        Name::Emit => Stage::Emit(EmitBlock(emit::Schedule::new(costs.interval, costs.latency))),
         Name::VertexShader => {
             let store = store(config);
             shape.shares_port = store.as_ref().is_some_and(|store| store.shared);
-            Stage::VertexShader(steady, store)
+            Stage::VertexShader(VertexShader(steady, store))
         }
         Name::Trace | Name::Link | Name::Memory | Name::Unit => {
             unreachable!("{block:?} has no costs")

@@ -26,21 +26,27 @@ impl Schedule {
     }
 
     /// Emits the vertices that `triangle` is the first to use. `first`: it is its patch's first.
-    #[inline]
+    #[inline(always)]
     pub fn accept(&mut self, triangle: Triangle, first: bool, out: &mut impl Emit<u16>) -> Cost {
         if first {
             self.next_patch();
         }
-        let mut fresh = 0;
+        let most = usize::from(triangle[0].max(triangle[1]).max(triangle[2]));
+        if most >= self.marks.len() {
+            self.marks.resize(most + 1, 0);
+        }
+        let (interval, latency) = (u64::from(self.interval), u64::from(self.latency));
+        let mut offset = latency;
         for vertex in triangle {
             if self.mark(vertex) {
-                out.emit(vertex, u64::from(self.latency) + fresh * u64::from(self.interval));
-                fresh += 1;
+                out.emit(vertex, offset);
+                offset += interval;
             }
         }
-        Cost { interval: fresh.max(1) * u64::from(self.interval), latency: self.latency.into() }
+        Cost { interval: (offset - latency).max(interval), latency }
     }
 
+    #[inline(never)]
     fn next_patch(&mut self) {
         self.patch = self.patch.wrapping_add(1);
         if self.patch == 0 {
@@ -52,11 +58,8 @@ impl Schedule {
     /// Marks a vertex; whether it was new.
     #[inline(always)]
     fn mark(&mut self, vertex: u16) -> bool {
-        let vertex = usize::from(vertex);
-        if vertex >= self.marks.len() {
-            self.marks.resize(vertex + 1, 0);
-        }
-        std::mem::replace(&mut self.marks[vertex], self.patch) != self.patch
+        let mark = &mut self.marks[usize::from(vertex)];
+        std::mem::replace(mark, self.patch) != self.patch
     }
 }
 

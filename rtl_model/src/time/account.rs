@@ -316,9 +316,10 @@ impl Lanes {
         1 + self.others.len()
     }
 
+    /// `ONE`: there is no other.
     #[inline(always)]
-    pub(super) fn lane(&mut self, lane: usize) -> &mut Lane {
-        if lane == 0 { &mut self.first } else { &mut self.others[lane - 1] }
+    pub(super) fn lane<const ONE: bool>(&mut self, lane: usize) -> &mut Lane {
+        if ONE || lane == 0 { &mut self.first } else { &mut self.others[lane - 1] }
     }
 
     pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Lane> {
@@ -327,8 +328,12 @@ impl Lanes {
 
     /// The lane that takes a token which could be accepted at `from`, and when it does.
     #[inline(always)]
-    pub(super) fn choose(&self, from: u64) -> (usize, u64) {
-        if self.others.is_empty() { (0, from.max(self.first.ready)) } else { self.one_of(from) }
+    pub(super) fn choose<const ONE: bool>(&self, from: u64) -> (usize, u64) {
+        if ONE || self.others.is_empty() {
+            (0, from.max(self.first.ready))
+        } else {
+            self.one_of(from)
+        }
     }
 
     fn one_of(&self, from: u64) -> (usize, u64) {

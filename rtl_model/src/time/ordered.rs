@@ -214,7 +214,7 @@ impl<B: Block> Stage<B> {
         if self.shape.shares_port && self.block.port(&arrival.token).is_some() {
             from = from.max(port_free);
         }
-        Some(self.lanes.choose(from)).filter(|&(_, at)| at < NEVER)
+        Some(self.lanes.choose::<false>(from)).filter(|&(_, at)| at < NEVER)
     }
 
     /// From when on order lets the next output leave, and when it does.
@@ -234,7 +234,7 @@ impl<B: Block> Stage<B> {
     fn accept(&mut self, port_free: &mut u64, frames: &mut [FrameTimes], probe: &mut impl Probe) {
         let (lane, accept) = self.acceptance(*port_free).expect("it was the next event");
         let Arrival { token, at, frame } = self.arrivals.pop_front().expect("it has arrived");
-        let without_port = at.max(self.next_accept).max(self.lanes.lane(lane).ready);
+        let without_port = at.max(self.next_accept).max(self.lanes.lane::<false>(lane).ready);
         let port = self.block.port(&token).filter(|_| self.shape.shares_port);
         if let Some(cycles) = port {
             *port_free = accept + cycles;
@@ -274,7 +274,7 @@ impl<B: Block> Stage<B> {
     /// When a lane has time and a slot for a token, as far as is known.
     fn know_ready(&mut self, lane: usize) {
         let (in_flight, next) = self.busy[lane];
-        let lane = self.lanes.lane(lane);
+        let lane = self.lanes.lane::<false>(lane);
         lane.ready = lane.slot_behind(in_flight).map_or(NEVER, |free| free.max(next));
     }
 
@@ -283,7 +283,7 @@ impl<B: Block> Stage<B> {
         let (token, ready) = self.outputs.pop_front().expect("it is ready");
         let flight = self.flights.front_mut().expect("an output belongs to a token");
         // Its lane's older tokens have left, and its own earlier outputs.
-        let lane = self.lanes.lane(flight.lane);
+        let lane = self.lanes.lane::<false>(flight.lane);
         let first = ready.max(lane.head);
         flight.by_order += turn.saturating_sub(first);
         flight.blocked += at.saturating_sub(turn.max(first));
@@ -308,7 +308,7 @@ impl<B: Block> Stage<B> {
             self.left = self.left.max(flight.done);
             frames[frame].elapsed = frames[frame].elapsed.max(self.left);
             probe.left(self.index, self.left);
-            let books = self.lanes.lane(lane);
+            let books = self.lanes.lane::<false>(lane);
             books.turn_to(frame, |last| &mut frames[last].stages[self.index]);
             books.waited(flight.waited_from, flight.accept);
             books.blocked += flight.blocked;

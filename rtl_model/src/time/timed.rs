@@ -16,7 +16,7 @@
 //! other lanes, between `turn` and the time of emission for room.
 
 use super::account::{Fifo, Lanes};
-use super::{Block, Emit, FrameTimes, Frames, Probe, Shape, StageTimes, Times};
+use super::{Block, Emit, FrameTimes, Frames, Probe, Shape, StageTimes, Times, Visitor};
 use std::marker::PhantomData;
 
 /// The rules as constants, so that tests can plant a mistake in this engine alone.
@@ -59,11 +59,16 @@ struct Run<P> {
 }
 
 struct Stage<B: Block> {
-    index: usize,
     block: B,
     /// Tokens that have arrived and when, of which it is not yet known when they are accepted.
     inbox: Vec<(B::Token, u64)>,
     depth: usize,
+    books: Books,
+}
+
+/// What is known of a stage's past.
+struct Books {
+    index: usize,
     /// The FIFO before it; the host's tokens wait in none.
     fifo: Option<Fifo>,
     lanes: Lanes,
@@ -88,11 +93,8 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
         let stage = |(index, (block, shape)): (usize, (B, Shape))| {
             shape.check();
             assert!(!shape.shares_port || R::PORT_BY_EVALUATION, "a shared port is not timed here");
-            Stage {
+            let books = Books {
                 index,
-                block,
-                inbox: Vec::with_capacity(shape.depth as usize),
-                depth: shape.depth as usize,
                 fifo: (index > 0).then(|| Fifo::new(shape.depth)),
                 lanes: Lanes::new(&shape),
                 shares_port: shape.shares_port,
@@ -101,7 +103,9 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
                 left: 0,
                 tokens_in: 0,
                 tokens_out: 0,
-            }
+            };
+            let depth = shape.depth as usize;
+            Stage { block, inbox: Vec::with_capacity(depth), depth, books }
         };
         Self {
             stages: chain.into_iter().enumerate().map(stage).collect(),
@@ -128,18 +132,18 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
             take_all::<B, P, R>(&mut self.stages[k..], &mut self.run);
         }
         let before = self.elapsed;
-        let left = self.stages.iter().map(|stage| stage.left).max();
+        let left = self.stages.iter().map(|stage| stage.books.left).max();
         let elapsed = left.unwrap_or(0).max(before);
-        let stages = self.stages.iter_mut();
+        let stages = self.stages.iter_mut().map(|stage| &mut stage.books);
         let (added, stages) = match self.policy {
             Frames::Drain => {
                 self.elapsed = 0;
                 self.run.port = 0;
-                (elapsed, stages.map(|stage| stage.drain(elapsed)).collect())
+                (elapsed, stages.map(|books| books.drain(elapsed)).collect())
             }
             Frames::Overlap => {
                 self.elapsed = elapsed;
-                (elapsed - before, stages.map(Stage::overlap).collect())
+                (elapsed - before, stages.map(Books::overlap).collect())
             }
         };
         self.frames.push(FrameTimes { elapsed: added, stages });
@@ -152,28 +156,28 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
     /// When tokens were fed after the last end of a frame.
     #[must_use]
     pub fn finish(mut self) -> (Times, P) {
-        let ended = |stage: &Stage<B>| stage.inbox.is_empty() && stage.tokens_in == 0;
+        let ended = |stage: &Stage<B>| stage.inbox.is_empty() && stage.books.tokens_in == 0;
         assert!(self.stages.iter().all(ended), "the last frame has ended");
         for (k, stage) in self.stages.iter_mut().enumerate() {
             let mut times: Vec<_> =
                 self.frames.iter_mut().map(|f| std::mem::take(&mut f.stages[k])).collect();
             if let Some(last) = times.len().checked_sub(1) {
-                stage.lanes.finish(self.elapsed, last, &mut times);
+                stage.books.lanes.finish(self.elapsed, last, &mut times);
             }
             for (frame, times) in self.frames.iter_mut().zip(times) {
                 frame.stages[k] = times;
             }
-            if let Some(fifo) = &mut stage.fifo {
+            if let Some(fifo) = &mut stage.books.fifo {
                 fifo.drain(self.elapsed);
             }
         }
-        let cycles = |stage: Stage<B>| stage.fifo.map_or_else(Vec::new, Fifo::into_cycles);
+        let cycles = |stage: Stage<B>| stage.books.fifo.map_or_else(Vec::new, Fifo::into_cycles);
         let occupancy = self.stages.into_iter().map(cycles).collect();
         (Times { frames: self.frames, occupancy }, self.run.probe)
     }
 }
 
-impl<B: Block> Stage<B> {
+impl Books {
     fn counts(&mut self) -> StageTimes {
         StageTimes {
             tokens_in: std::mem::take(&mut self.tokens_in),
@@ -204,75 +208,90 @@ impl<B: Block> Stage<B> {
 fn take_all<B: Block, P: Probe, R: Rules>(stages: &mut [Stage<B>], run: &mut Run<P>) {
     let (stage, rest) = stages.split_first_mut().expect("a chain has blocks");
     let mut inbox = std::mem::take(&mut stage.inbox);
-    for (token, arrived) in &inbox {
-        take::<B, P, R>(stage, token, *arrived, rest, run);
+    let books = &mut stage.books;
+    let rules = PhantomData::<R>;
+    if books.lanes.len() == 1 {
+        stage.block.visit(Taker::<_, _, _, true> { books, inbox: &inbox, rest, run, rules });
+    } else {
+        stage.block.visit(Taker::<_, _, _, false> { books, inbox: &inbox, rest, run, rules });
     }
     inbox.clear();
     stage.inbox = inbox;
 }
 
-/// A stage takes a token, seen there from the start of cycle `arrived`.
-#[inline(always)]
-fn take<B: Block, P: Probe, R: Rules>(
-    stage: &mut Stage<B>,
-    token: &B::Token,
-    arrived: u64,
-    rest: &mut [Stage<B>],
-    run: &mut Run<P>,
-) {
-    let mut from = arrived.max(stage.next_accept);
-    if R::PORT_BY_EVALUATION && stage.shares_port {
-        from = by_evaluation(stage, token, from, &mut run.port);
+/// Takes the tokens of an inbox, by a block of one lane or of several.
+struct Taker<'a, B: Block, P, R, const ONE: bool> {
+    books: &'a mut Books,
+    inbox: &'a [(B::Token, u64)],
+    rest: &'a mut [Stage<B>],
+    run: &'a mut Run<P>,
+    rules: PhantomData<R>,
+}
+
+impl<B: Block, P: Probe, R: Rules, const ONE: bool> Visitor<B::Token> for Taker<'_, B, P, R, ONE> {
+    fn visit(mut self, block: &mut impl Block<Token = B::Token>) {
+        for (token, arrived) in self.inbox {
+            self.take(block, token, *arrived);
+        }
     }
-    let (lane, accept) = stage.lanes.choose(from);
-    let lane = if R::LANES { lane } else { stage.lanes.len() - 1 - lane };
-    run.probe.accepted(stage.index, lane, accept);
-    stage.next_accept = accept + 1;
-    stage.tokens_in += 1;
-    if let Some(fifo) = &mut stage.fifo {
-        fifo.pass(arrived, accept);
+}
+
+impl<B: Block, P: Probe, R: Rules, const ONE: bool> Taker<'_, B, P, R, ONE> {
+    /// Takes a token, which is seen from the start of cycle `arrived`.
+    #[inline(always)]
+    fn take(&mut self, block: &mut impl Block<Token = B::Token>, token: &B::Token, arrived: u64) {
+        let books = &mut *self.books;
+        let mut from = arrived.max(books.next_accept);
+        if R::PORT_BY_EVALUATION && books.shares_port {
+            from = by_evaluation(books, block.port(token), from, &mut self.run.port);
+        }
+        let (lane, accept) = books.lanes.choose::<ONE>(from);
+        let lane = if R::LANES { lane } else { books.lanes.len() - 1 - lane };
+        self.run.probe.accepted(books.index, lane, accept);
+        books.next_accept = accept + 1;
+        books.tokens_in += 1;
+        if let Some(fifo) = &mut books.fifo {
+            fifo.pass(arrived, accept);
+        }
+        let mut outputs = Outputs::<B, P, R> {
+            stage: books.index,
+            accept,
+            turn: books.next_emission.max(books.left),
+            head: books.lanes.lane::<ONE>(lane).head,
+            count: 0,
+            blocked: 0,
+            by_order: 0,
+            rest: self.rest,
+            run: self.run,
+            rules: PhantomData,
+        };
+        let cost = block.accept(token, &mut outputs);
+        let Outputs { turn, count, blocked, by_order, .. } = outputs;
+        assert!(cost.interval >= 1, "an initiation interval is at least a cycle");
+        if count > 0 {
+            books.next_emission = turn;
+            books.left = turn - 1;
+            books.tokens_out += count;
+        } else {
+            books.left = books.left.max(accept + cost.latency);
+        }
+        let next = accept + cost.interval;
+        let lane = books.lanes.lane::<ONE>(lane);
+        lane.blocked += blocked;
+        lane.by_order += by_order;
+        let ready = lane.done(accept, books.left, next, self.run.frame);
+        lane.ready = if R::SLOTS { ready } else { next };
+        if !ONE {
+            books.lanes.took();
+        }
+        self.run.probe.left(books.index, books.left);
     }
-    let mut outputs = Outputs::<B, P, R> {
-        stage: stage.index,
-        accept,
-        turn: stage.next_emission.max(stage.left),
-        head: stage.lanes.lane(lane).head,
-        count: 0,
-        blocked: 0,
-        by_order: 0,
-        rest,
-        run,
-        rules: PhantomData,
-    };
-    let cost = stage.block.accept(token, &mut outputs);
-    let Outputs { turn, count, blocked, by_order, run, .. } = outputs;
-    assert!(cost.interval >= 1, "an initiation interval is at least a cycle");
-    if count > 0 {
-        stage.next_emission = turn;
-        stage.left = turn - 1;
-        stage.tokens_out += count;
-    } else {
-        stage.left = stage.left.max(accept + cost.latency);
-    }
-    let next = accept + cost.interval;
-    let books = stage.lanes.lane(lane);
-    books.blocked += blocked;
-    books.by_order += by_order;
-    let ready = books.done(accept, stage.left, next, run.frame);
-    books.ready = if R::SLOTS { ready } else { next };
-    stage.lanes.took();
-    run.probe.left(stage.index, stage.left);
 }
 
 /// When a token gets the port, if whoever is evaluated first gets it first.
-fn by_evaluation<B: Block>(
-    stage: &Stage<B>,
-    token: &B::Token,
-    from: u64,
-    port_free: &mut u64,
-) -> u64 {
-    let Some(cycles) = stage.block.port(token) else { return from };
-    let (_, accept) = stage.lanes.choose(from.max(*port_free));
+fn by_evaluation(books: &Books, port: Option<u64>, from: u64, port_free: &mut u64) -> u64 {
+    let Some(cycles) = port else { return from };
+    let (_, accept) = books.lanes.choose::<false>(from.max(*port_free));
     *port_free = accept + cycles;
     accept
 }
@@ -305,7 +324,7 @@ impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
                 take_all::<B, P, R>(self.rest, self.run);
             }
             let next = &mut self.rest[0];
-            let fifo = next.fifo.as_mut().expect("blocks behind the first have a FIFO");
+            let fifo = next.books.fifo.as_mut().expect("blocks behind the first have a FIFO");
             at = turn.max(fifo.push().saturating_sub(1 - R::CREDIT));
             next.inbox.push((token, at + 1));
         }
