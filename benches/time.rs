@@ -1,11 +1,22 @@
-//! How fast is time? Cycles a second of the engines: `stepped` on a plain pipeline of eight stages,
-//! where every stage does something in every cycle, and `timed` on the same.
+//! How fast is time? Cycles a second of the engines on a plain pipeline of eight stages, dense (all
+//! stages do something in every cycle) and sparse; the whole unit, end to end; and the engines alone
+//! over what the host sent in that run, dense and behind a slow link.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use rtl_model::counter::Counter;
+use rtl_model::level;
+use rtl_model::patch::Level;
 use rtl_model::time::stepped::Stepped;
 use rtl_model::time::timed::Timed;
 use rtl_model::time::{Block, Cost, Emit, Frames, LaneOrder, Shape, Times};
 use std::hint::black_box;
+use std::io::BufReader;
+use tessim::config::{Config, Engine};
+use tessim::sink::NoMesh;
+use tessim::trace::command::{Command, Tessellation};
+use tessim::trace::read::Reader;
+use tessim::trace::scene::teacups::Teacups;
+use tessim::unit::{record, simulate};
 
 /// Tokens of a run: as many cycles, but for the latency.
 const TOKENS: u32 = 100_000;
@@ -48,6 +59,73 @@ fn stepped(interval: u32) -> Times {
     engine.finish().0
 }
 
+/// Four frames of a hundred teacups at fixed level 16.
+fn teacups() -> Vec<Command> {
+    let fixed = level::Criterion::Fixed { level: Level::clamped(16 << 16) };
+    let tessellation = Tessellation { criterion: fixed, min_level: 1 << 16, max_level: 64 << 16 };
+    let scene = Teacups { count: 100, frames: 4, tessellation };
+    let mut text = Vec::new();
+    scene.write(&mut text).expect("a vector takes it all");
+    let reader = Reader::new(BufReader::new(&text[..]), "teacups", ".");
+    reader.map(|located| located.expect("a scene is well-formed").command).collect()
+}
+
+fn one_thread() -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread")
+}
+
+/// The same run by each engine: triangles a second.
+fn end_to_end(criterion: &mut Criterion) {
+    let commands = teacups();
+    let run = |engine: Engine| {
+        let config = Config { engine, ..Config::default() };
+        let commands = commands.iter().cloned().map(Ok);
+        simulate(commands, &config, &mut NoMesh).expect("a scene runs")
+    };
+    let report = run(Engine::Timed);
+    let triangles = report.total(Counter::EmitTriangles);
+    let cycles = report.whole().times.expect("it was timed").elapsed;
+    println!("end to end: {triangles} triangles, {cycles} cycles");
+    let mut group = criterion.benchmark_group("end to end");
+    group.sample_size(10).throughput(Throughput::Elements(triangles));
+    let pool = one_thread();
+    for engine in Engine::ALL {
+        group.bench_function(engine.name(), |bencher| {
+            pool.install(|| bencher.iter(|| run(black_box(engine))));
+        });
+    }
+    group.finish();
+}
+
+/// The engines alone over recorded tokens: cycles a second.
+fn overlay(criterion: &mut Criterion) {
+    let commands = teacups();
+    let mut group = criterion.benchmark_group("overlay");
+    group.sample_size(10);
+    for (load, slow) in [("dense", false), ("sparse", true)] {
+        let mut config = Config::default();
+        if slow {
+            // A shader of forty cycles a vertex: all else waits.
+            config.block.vertex_shader.interval = 40;
+            config.block.vertex_shader.in_flight = Some(6);
+        }
+        let recording = record(commands.iter().cloned().map(Ok), &config).expect("a scene runs");
+        let replay = |engine: Engine| {
+            let times = recording.replay(&Config { engine, ..config.clone() });
+            times.expect("an engine ran").frames
+        };
+        let frames = replay(Engine::Timed);
+        assert_eq!(frames, replay(Engine::Stepped), "they agree on what they are timed on");
+        let cycles = frames.iter().map(|frame| frame.elapsed).sum();
+        group.throughput(Throughput::Elements(cycles));
+        for engine in [Engine::Timed, Engine::Stepped] {
+            let name = format!("{}, {load}", engine.name());
+            group.bench_function(name, |b| b.iter(|| replay(black_box(engine))));
+        }
+    }
+    group.finish();
+}
+
 fn pipeline(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("eight stages");
     group.sample_size(20);
@@ -63,5 +141,5 @@ fn pipeline(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, pipeline);
+criterion_group!(benches, pipeline, end_to_end, overlay);
 criterion_main!(benches);

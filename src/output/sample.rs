@@ -35,6 +35,7 @@ pub(crate) fn timed_report() -> Report {
                 blocked,
                 blocked_by_order,
                 total: parts[k].iter().sum(),
+                used: 0,
                 tokens_in: works[k].tokens_in,
                 tokens_out: works[k].tokens_out,
                 fifo_peak: peaks[k],

@@ -54,6 +54,8 @@ impl Sent {
 
 enum Running {
     None,
+    /// Keeps what the host sends.
+    Recording(Recording),
     Timed(Box<Timed<Stage>>),
     /// Where stages share a memory port, who gets it depends on the order of time.
     Ordered(Box<Ordered<Stage>>),
@@ -69,18 +71,99 @@ pub(super) struct Fetch {
     pub(super) read: u32,
 }
 
-impl Clock {
-    pub(super) fn new(config: &Config) -> Self {
+/// What the host sent in a run, frame by frame: to be timed again, by itself.
+#[derive(Clone, Debug, Default)]
+pub struct Recording {
+    frames: Vec<Vec<Token>>,
+    frame: Vec<Token>,
+}
+
+impl Recording {
+    /// Lays the time of the configured engine over it; `None` without one. The configuration must
+    /// otherwise be that of the recorded run.
+    #[must_use]
+    pub fn replay(&self, config: &Config) -> Option<Times> {
+        let mut engine = Running::new(config);
+        for frame in &self.frames {
+            frame.iter().for_each(|&token| engine.feed(token));
+            engine.end_frame();
+        }
+        engine.finish()
+    }
+
+    /// Tokens in all.
+    #[must_use]
+    pub fn tokens(&self) -> usize {
+        self.frames.iter().map(Vec::len).sum()
+    }
+}
+
+impl Running {
+    fn new(config: &Config) -> Self {
         let chain = chain::stages(config);
         let shared = chain.iter().any(|(_, shape)| shape.shares_port);
-        let engine = match config.engine {
-            Engine::None => Running::None,
+        match config.engine {
+            Engine::None => Self::None,
             Engine::Timed if shared => {
-                Running::Ordered(Box::new(Ordered::new(chain, config.frames, ())))
+                Self::Ordered(Box::new(Ordered::new(chain, config.frames, ())))
             }
-            Engine::Timed => Running::Timed(Box::new(Timed::new(chain, config.frames, ()))),
-            Engine::Stepped => Running::Stepped(Box::new(Stepped::new(chain, config.frames, ()))),
-        };
+            Engine::Timed => Self::Timed(Box::new(Timed::new(chain, config.frames, ()))),
+            Engine::Stepped => Self::Stepped(Box::new(Stepped::new(chain, config.frames, ()))),
+        }
+    }
+
+    fn feed(&mut self, token: Token) {
+        match self {
+            Self::None => {}
+            Self::Recording(recording) => recording.frame.push(token),
+            Self::Timed(engine) => engine.feed(token),
+            Self::Ordered(engine) => engine.feed(token),
+            Self::Stepped(engine) => engine.feed(token),
+        }
+    }
+
+    fn end_frame(&mut self) {
+        match self {
+            Self::None => {}
+            Self::Recording(recording) => {
+                let frame = std::mem::take(&mut recording.frame);
+                recording.frames.push(frame);
+            }
+            Self::Timed(engine) => engine.end_frame(),
+            Self::Ordered(engine) => engine.end_frame(),
+            Self::Stepped(engine) => engine.end_frame(),
+        }
+    }
+
+    fn finish(self) -> Option<Times> {
+        match self {
+            Self::None | Self::Recording(_) => None,
+            Self::Timed(engine) => Some(engine.finish().0),
+            Self::Ordered(engine) => Some(engine.finish().0),
+            Self::Stepped(engine) => Some(engine.finish().0),
+        }
+    }
+}
+
+impl Clock {
+    pub(super) fn new(config: &Config) -> Self {
+        Self::with(config, Running::new(config))
+    }
+
+    /// A clock that no time is laid over, but which remembers what it was given.
+    pub(super) fn recording(config: &Config) -> Self {
+        Self::with(config, Running::Recording(Recording::default()))
+    }
+
+    /// What was recorded.
+    pub(super) fn into_recording(self) -> Option<Recording> {
+        match self.engine {
+            Running::Recording(recording) => Some(recording),
+            _ => None,
+        }
+    }
+
+    fn with(config: &Config, engine: Running) -> Self {
         Self {
             config: config.clone(),
             engine,
@@ -97,12 +180,7 @@ impl Clock {
         };
         self.sent.link_bytes += parcel.down + u64::from(parcel.up);
         self.sent.memory_bytes += u64::from(parcel.read) + u64::from(parcel.written);
-        match &mut self.engine {
-            Running::None => {}
-            Running::Timed(engine) => engine.feed(token),
-            Running::Ordered(engine) => engine.feed(token),
-            Running::Stepped(engine) => engine.feed(token),
-        }
+        self.engine.feed(token);
     }
 
     /// A command of `payload` bytes, without what the host makes of its patches, crosses the link.
@@ -188,22 +266,12 @@ impl Clock {
     /// The frame's last patch has been sent. Returns what was.
     pub(super) fn end_frame(&mut self) -> Sent {
         self.end_draw();
-        match &mut self.engine {
-            Running::None => {}
-            Running::Timed(engine) => engine.end_frame(),
-            Running::Ordered(engine) => engine.end_frame(),
-            Running::Stepped(engine) => engine.end_frame(),
-        }
+        self.engine.end_frame();
         std::mem::take(&mut self.sent)
     }
 
     /// The times of the run, if an engine ran.
     pub(super) fn finish(self) -> Option<Times> {
-        match self.engine {
-            Running::None => None,
-            Running::Timed(engine) => Some(engine.finish().0),
-            Running::Ordered(engine) => Some(engine.finish().0),
-            Running::Stepped(engine) => Some(engine.finish().0),
-        }
+        self.engine.finish()
     }
 }

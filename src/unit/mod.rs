@@ -18,11 +18,12 @@ mod tokens;
 use crate::config::{Config, Unit};
 use crate::error::Result;
 use crate::report::Report;
-use crate::sink::Sink;
+use crate::sink::{NoMesh, Sink};
 use crate::trace::command::Command;
 use rtl_model::counter::standard::{Stage, Work};
 use rtl_model::counter::{Block, Counters};
 
+pub use clock::Recording;
 pub use frame::FrameState;
 
 /// Carries out the commands of a trace on the configured unit, in the current rayon pool; any
@@ -46,6 +47,26 @@ pub fn simulate(
         run.command(&command?)?;
     }
     run.finish()
+}
+
+/// Carries out the commands without an engine, and keeps what an engine would be given.
+///
+/// # Errors
+/// As [`simulate`].
+///
+/// # Panics
+/// As [`simulate`].
+pub fn record(
+    commands: impl Iterator<Item = Result<Command>>,
+    config: &Config,
+) -> Result<Recording> {
+    config.check()?;
+    let mut sink = NoMesh;
+    let mut run = run::Run::recording(config, &mut sink);
+    for command in commands {
+        run.command(&command?)?;
+    }
+    run.finish_recording()
 }
 
 /// The blocks of a unit, in the order of the data.

@@ -1,7 +1,7 @@
 //! A run: carries out the commands of a trace, frame by frame.
 
 use super::batch::{self, Batch, DrawState, Tally};
-use super::clock::{Clock, Fetch};
+use super::clock::{Clock, Fetch, Recording};
 use super::frame::FrameState;
 use super::{blocks, chain, hybrid, work};
 use crate::config::{Config, Unit};
@@ -68,6 +68,16 @@ impl<'a> Run<'a> {
             frames: Vec::new(),
             host_link_bytes: 0,
         }
+    }
+
+    /// A run of which only what an engine would be given is wanted.
+    pub(super) fn recording(config: &'a Config, sink: &'a mut dyn Sink) -> Self {
+        Self { clock: Clock::recording(config), ..Self::new(config, sink) }
+    }
+
+    pub(super) fn finish_recording(mut self) -> Result<Recording> {
+        self.end_frame()?;
+        Ok(self.clock.into_recording().expect("it was recorded"))
     }
 
     pub(super) fn command(&mut self, command: &Command) -> Result<()> {
