@@ -47,7 +47,8 @@ pub struct BlockCosts {
     /// Cycles from a work item's acceptance to its result, 0..=[`CYCLES_MAX`].
     pub latency: u32,
     /// Tokens under way in a lane at once, 1..=[`ENTRIES_MAX`]; floor(latency / interval) + 1 when
-    /// absent, which is what hides the latency.
+    /// absent, which is what hides the latency, and a few where a token is several items
+    /// ([`Config::costs`]).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub in_flight: Option<u32>,
     /// Lanes, 1..=[`LANES_MAX`].
@@ -160,6 +161,11 @@ impl BlockCosts {
         self.in_flight.unwrap_or_else(|| (self.latency / self.interval.max(1)).saturating_add(1))
     }
 
+    /// The same, of a block that holds so many tokens where nothing else is said.
+    fn holding(&self, in_flight: u32) -> Self {
+        Self { in_flight: self.in_flight.or(Some(in_flight)), ..self.clone() }
+    }
+
     /// How the block stands in the chain of the engines.
     #[must_use]
     pub fn shape(&self) -> Shape {
@@ -218,9 +224,10 @@ impl Config {
             Block::Assemble => blocks.assemble.clone(),
             Block::Clip => blocks.clip.clone(),
             Block::Backface => blocks.backface.of_method(self.backface.method),
-            Block::Level => blocks.level.clone(),
-            Block::Place => blocks.place.clone(),
-            Block::Evaluate => blocks.evaluate.costs.clone(),
+            // Their tokens are patches of several items: so few fill the pipeline.
+            Block::Level => blocks.level.holding(4),
+            Block::Place => blocks.place.holding(4),
+            Block::Evaluate => blocks.evaluate.costs.holding(2),
             Block::Stitch => blocks.stitch.clone(),
             Block::Emit => blocks.emit.clone(),
             Block::VertexShader => blocks.vertex_shader.clone(),
@@ -251,6 +258,8 @@ mod tests {
         assert_eq!(costs(&config, Block::Backface), (2, 2, 2));
         config.backface.method = BackfaceMethod::Off;
         assert_eq!(costs(&config, Block::Backface), (1, 1, 2));
+        let held = |block| costs(&config, block).2;
+        assert_eq!([Block::Level, Block::Place, Block::Evaluate].map(held), [4, 4, 2]);
         config.block.emit.in_flight = Some(3);
         let shape = config.costs(Block::Emit).unwrap().shape();
         assert_eq!((shape.in_flight, shape.depth, shape.lanes), (3, 16, 1));

@@ -5,6 +5,9 @@ use super::{CYCLES, FIFO, Key, key, optional};
 const INTERVAL: &str = "1..=1000000";
 const ENTRIES: &str = "1..=65536";
 const IN_FLIGHT: &str = "floor(latency / interval) + 1, which hides the latency";
+/// A token is a patch there, and an item one of its six levels.
+const LEVELS: &str = "4: six levels each fill the pipeline of 16";
+const EVALUATE: &str = "2: one patch runs while the next one's first curve is set up";
 const ORDERS: &str = "first_free or round_robin";
 
 /// The keys of the blocks, in the order of the data. Paths and meanings must be joined before the
@@ -13,7 +16,7 @@ macro_rules! keys {
     ($($block:literal {
         interval: $interval:literal $(absent $no_interval:expr)?,
         latency: $latency:literal $(absent $no_latency:expr)?,
-        in_flight: $in_flight:literal,
+        in_flight: $in_flight:literal $(that is $few:expr)?,
         fifo: $fifo:literal
         $(, $extra:expr)?
     })*) => {
@@ -34,7 +37,7 @@ macro_rules! keys {
                 concat!("block.", $block, ".in_flight"),
                 "tokens under way in a lane at once",
                 ENTRIES,
-                ($in_flight, IN_FLIGHT),
+                ($in_flight, [$($few,)? IN_FLIGHT][0]),
             ),
             key(concat!("block.", $block, ".lanes"), "lanes side by side", "1..=4096"),
             key(
@@ -101,19 +104,19 @@ pub(super) const KEYS: &[Key] = keys! {
         interval: "an item is a level: six a patch (four edges, two interior directions) under \
                    flatness and edge_length, one under fixed",
         latency: "a pipelined square root and divide",
-        in_flight: "17",
+        in_flight: "4" that is LEVELS,
         fifo: "patches"
     }
     "place" {
         interval: "an item is a reciprocal: one for each distinct level above 1",
         latency: "a pipelined reciprocal",
-        in_flight: "17",
+        in_flight: "4" that is LEVELS,
         fifo: "patches"
     }
     "evaluate" {
         interval: "an item is a point: a forward-difference step of a vec4 (12 adders) a cycle",
         latency: "three additions in a row, and rounding",
-        in_flight: "5",
+        in_flight: "2" that is EVALUATE,
         fifo: "patches",
         key(
             "block.evaluate.setup",
