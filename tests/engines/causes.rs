@@ -103,6 +103,40 @@ fn behind_a_slow_link_the_unit_takes_its_own_time() {
     println!("compared {compared} runs: {own} cycles behind the link");
 }
 
+/// Draws of one patch each, its points sent before it.
+fn single_patches(draws: usize) -> String {
+    let points: Vec<String> = (0..16).map(|k| format!("[{},{},0]", k % 4, k / 4)).collect();
+    let identity = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+    let draw = format!(
+        "{{\"points\":{{\"id\":0,\"xyz\":[{}]}}}}\n\
+         {{\"draw\":{{\"primitive\":\"patches\",\"points\":0,\"count\":1}}}}\n",
+        points.join(",")
+    );
+    format!(
+        "{{\"tessim\":1}}\n\
+         {{\"frame\":{{\"viewport\":[64,64],\"view\":{identity},\
+         \"projection\":[0.01,0,0,0,0,0.01,0,0,0,0,-0.01,0,0,0,0.5,1]}}}}\n{}{{\"end\":{{}}}}\n",
+        draw.repeat(draws)
+    )
+}
+
+#[test]
+fn patches_and_commands_cross_in_the_order_of_the_trace() {
+    // On a slow link each patch is long through the unit when the next one's draw has crossed, so
+    // what follows the link's last byte is the last patch's own time: with one draw or with many.
+    // A patch's fetch takes one cycle of the link, and the last one's is its own.
+    let one = run(&single_patches(1), &set(&["link.bandwidth_mb_s=10000000"]));
+    let own = elapsed(&one) - 3; // a frame, points and a draw take a cycle each
+    assert!(own > 300, "{own} cycles of a patch");
+    for draws in [1, 2, 7] {
+        let slow = run(&single_patches(draws), &set(&["link.bandwidth_mb_s=50"]));
+        assert_eq!(slow.total(Counter::StitchTriangles), 2 * draws as u64);
+        let fetches = draws as u64 - 1;
+        assert_eq!(elapsed(&slow), link_cycles(&slow) + fetches + own, "{draws} draws");
+    }
+    println!("compared 3 runs: {own} cycles of a patch");
+}
+
 #[test]
 fn agp_8x_brings_66_6_million_vertices_of_32_bytes_a_second() {
     let clock_mhz = 500; // the shortest command, 8 bytes, takes a cycle and more
