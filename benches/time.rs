@@ -135,7 +135,7 @@ fn pipeline(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(times.frames[0].elapsed));
         group.bench_function(format!("timed, {load}"), |b| b.iter(|| timed(black_box(interval))));
         group.bench_function(format!("stepped, {load}"), |b| {
-            b.iter(|| stepped(black_box(interval)))
+            b.iter(|| stepped(black_box(interval)));
         });
     }
     group.finish();

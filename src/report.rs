@@ -104,14 +104,18 @@ impl Report {
     /// Holds the frames together against the laws that only a whole run keeps.
     ///
     /// # Panics
-    /// When the engine is wrong: a block's cycles are not the elapsed ones in each of its lanes, or
-    /// a FIFO was not in one state in each of them.
+    /// When the engine is wrong: a block's cycles are not the elapsed ones in each of its lanes, it
+    /// was used with nothing in flight, or a FIFO was not in one state in each of the cycles.
     pub fn check(&self) {
         let Some(times) = self.whole().times else { return };
         assert!(self.frames.iter().all(|f| f.times.is_some()), "all frames are timed, or none");
         for (stage, t) in self.chain.iter().zip(&times.stages) {
             let (name, lanes) = (stage.block.name(), u64::from(stage.shape.lanes));
             assert_eq!(t.total, times.elapsed * lanes, "{name}: elapsed cycles x {lanes} lanes");
+            // Of frames that overlap, one may leave a lane in the cycle in which the next enters
+            // it: in flight in that cycle is the one, used is the lane by the other.
+            let in_flight = t.busy + t.blocked + t.blocked_by_order;
+            assert!(t.used <= in_flight, "{name}: used {} of {in_flight} in flight", t.used);
         }
         assert_eq!(self.occupancy.len(), self.chain.len(), "every FIFO has its occupancy");
         for (k, (stage, cycles)) in self.chain.iter().zip(&self.occupancy).enumerate() {
@@ -209,7 +213,8 @@ mod tests {
     fn a_run_that_breaks_a_law_is_not_reported() {
         timed_report().check();
         type Harm = fn(&mut Report);
-        let harms: [Harm; 5] = [
+        let harms: [Harm; 6] = [
+            |r| r.frames[0].times.as_mut().expect("it is timed").stages[1].used += 9,
             |r| r.frames[1].times.as_mut().expect("it is timed").stages[2].total += 3,
             |r| r.frames[0].times.as_mut().expect("it is timed").elapsed += 1,
             |r| r.frames[0].times = None,

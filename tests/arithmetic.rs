@@ -213,6 +213,6 @@ fn tokens_are_those_of_one_patch() {
     assert_eq!(strips(128.0), 126 + 8);
     let host = patch(|c| c.unit = Unit::Triangles);
     let [link, shader] = [Block::Link, Block::VertexShader].map(|block| work(&host, block));
-    assert_eq!((link.tokens_in, link.tokens_out), (2, 25)); // a frame and a draw
+    assert_eq!((link.tokens_in, link.tokens_out), (4, 25)); // a frame, a draw, vertices, indices
     assert_eq!((shader.tokens_in, shader.tokens_out), (25, 25));
 }

@@ -41,13 +41,17 @@ fn run(arguments: &[&str], trace: &Path, out: &Path) {
     tessim().arg("run").arg(trace).args(arguments).arg("--out").arg(out).assert().success();
 }
 
+/// The block that binds a run of the teapot: used, busy, starved, blocked, its FIFO full.
+const TIMES: &str = "(?m)^  emit( +[0-9]+\\.[0-9] %){4} +16 of 16   stitch$";
+
 #[test]
 fn a_run_prints_a_table_without_colours_into_a_pipe() {
     let table = tessim().arg("run").arg(trace("teapot.jsonl")).assert().success();
     table
         .stdout(predicate::str::starts_with("teapot: unit hybrid, 1 frame\n"))
         .stdout(predicate::str::contains("control points                   6 144"))
-        .stdout(predicate::str::ends_with("what binds the run: no engine, so no cycles\n"))
+        .stdout(predicate::str::is_match(TIMES).unwrap())
+        .stdout(predicate::str::contains("  what binds the run: emit, used 9"))
         .stdout(predicate::str::contains("\x1b").not())
         .stderr("");
 }
@@ -77,7 +81,7 @@ fn a_result_folder_is_complete_and_reproduces_itself() {
     let config = first.join("config.toml");
     let config = ["--config", config.to_str().unwrap(), "--mesh", "ply"];
     run(&config, &trace("teapot.jsonl"), &second);
-    for name in ["config.toml", "counters.csv", "summary.json", "mesh.ply"] {
+    for name in ["config.toml", "counters.csv", "occupancy.csv", "summary.json", "mesh.ply"] {
         let bytes = fs::read(first.join(name)).unwrap();
         assert!(!bytes.is_empty());
         assert_eq!(bytes, fs::read(second.join(name)).unwrap(), "{name}");
@@ -90,8 +94,40 @@ fn a_result_folder_is_complete_and_reproduces_itself() {
     assert_eq!(summary["trace"]["title"], "teapot");
     assert_eq!(summary["totals"]["link.bytes.control_points"], 6144);
     assert_eq!(summary["totals"]["port.tokens.in"], 512);
-    assert!(!csv.contains(",cycles.") && !csv.contains(",fifo.peak,"), "no engine, no cycles");
-    assert!(!first.join("occupancy.csv").exists());
+}
+
+#[test]
+fn engines_write_the_same_bytes_and_none_writes_no_cycles() {
+    let folder = tempfile::tempdir().unwrap();
+    let [timed, stepped, none] = ["timed", "stepped", "none"].map(|engine| {
+        let out = folder.path().join(engine);
+        run(&["--engine", engine, "--mesh", "ply"], &trace("mesh.jsonl"), &out);
+        out
+    });
+    let read = |out: &Path, name: &str| fs::read_to_string(out.join(name)).unwrap();
+    for name in ["counters.csv", "occupancy.csv", "mesh.ply"] {
+        assert!(fs::read(timed.join(name)).unwrap() == fs::read(stepped.join(name)).unwrap());
+    }
+    // What names the engine names another one, and nothing else changes.
+    for (name, engine) in [("config.toml", "engine = \"_\""), ("summary.json", "\"engine\": \"_\"")]
+    {
+        let line = |engine_name| engine.replace('_', engine_name);
+        let (a, b) = (read(&timed, name), read(&stepped, name));
+        assert_eq!(a.replace(&line("timed"), &line("stepped")), b, "{name}");
+        assert!(a.contains(&line("timed")) && b.contains(&line("stepped")));
+    }
+    let cycles = |row: &&str| row.contains(",cycles.") || row.contains(",fifo.peak,");
+    let rows = read(&timed, "counters.csv");
+    let (with, without): (Vec<_>, Vec<_>) = rows.lines().partition(cycles);
+    assert_eq!(without, read(&none, "counters.csv").lines().collect::<Vec<_>>());
+    // Two frames; thirteen blocks with 7 rows, all but the last blocked by one, all but the first
+    // with a FIFO; and the unit.
+    assert_eq!(with.len(), 2 * (13 * 7 - 1 + 12 + 1));
+    assert!(!none.join("occupancy.csv").exists());
+    let quiet = tessim().args(["run", "--engine", "none"]).arg(trace("teapot.jsonl")).output();
+    let table = String::from_utf8(quiet.unwrap().stdout).unwrap();
+    assert!(table.ends_with("what binds the run: no engine, so no cycles\n"), "{table}");
+    assert!(!table.contains("\ntime\n"));
 }
 
 #[test]
@@ -103,7 +139,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
             let arguments = ["--threads", threads, "--mesh", form, "--set", "level.level=5.5"];
             run(&arguments, &trace("mesh.jsonl"), &out);
             let read = |name: &str| fs::read(out.join(name)).unwrap();
-            [read("counters.csv"), read("summary.json"), read(&format!("mesh.{form}"))]
+            let mesh = read(&format!("mesh.{form}"));
+            [read("counters.csv"), read("occupancy.csv"), read("summary.json"), mesh]
         });
         assert!(results[0] == results[1] && results[1] == results[2], "{form}");
     }
@@ -182,10 +219,12 @@ fn wrong_usage_is_exit_2_and_says_what_would_be_right() {
 
 #[test]
 fn a_time_that_cannot_be_is_refused_by_its_key() {
-    let cases: [(&str, &[&str]); 10] = [
+    let cases: [(&str, &[&str]); 12] = [
         ("clock_mhz=0", &["clock_mhz: found 0, expected 1..=100000"]),
         ("engine=fast", &["engine: found \"fast\", expected timed, stepped or none"]),
         ("block.stitch.fifo=0", &["block.stitch.fifo: found 0", "nothing could ever move"]),
+        ("block.evaluate.fifo=0", &["block.evaluate.fifo: found 0", "1 halves throughput"]),
+        ("block.stich.interval=2", &["unknown key", "did you mean `block.stitch.interval`?"]),
         ("block.emit.lanes=0", &["block.emit.lanes: found 0, expected 1..=4096"]),
         ("block.level.latency=1000001", &["block.level.latency: found 1000001"]),
         ("block.clip.interval=99999999999", &["block.clip.interval: found 99999999999"]),

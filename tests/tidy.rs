@@ -89,6 +89,19 @@ fn imports_follow_the_arrows() {
 }
 
 #[test]
+fn engines_share_their_declarations_and_nothing_else() {
+    let (mut engines, mut problems) = (Vec::new(), Vec::new());
+    for (path, text) in rust_files() {
+        let Some((engine, wrong)) = arrows::engine(&path, &text) else { continue };
+        engines.push(engine);
+        problems.extend(wrong);
+    }
+    engines.dedup(); // an engine may have a folder
+    assert_eq!(engines, ["ordered", "stepped", "timed"], "every engine was looked at");
+    report(&problems);
+}
+
+#[test]
 fn every_block_has_its_golden_definition_or_a_reason() {
     let order = arrows::module_order(&text_of("rtl_model/src/lib.rs"));
     let blocks: Vec<_> = order.iter().filter(|m| !NO_BLOCKS.contains(&m.as_str())).collect();

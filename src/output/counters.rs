@@ -111,6 +111,7 @@ mod tests {
                 "cycles.blocked,1,cycles",
                 "cycles.blocked.by.vertex_shader,1,cycles",
                 "cycles.total,100,cycles",
+                "cycles.used,94,cycles",
             ]
         );
         assert!(rows.ends_with("1,hybrid,unit,cycles.total,100,cycles\n"));

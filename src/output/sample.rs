@@ -22,6 +22,7 @@ pub(crate) fn timed_report() -> Report {
     let works = vec![work(1, 1, None), work(1, 4, ops), work(4, 4, None)];
     // busy, starved, by port, blocked, by order
     let parts = [[10, 0, 0, 90, 0], [95, 4, 0, 1, 0], [120, 105, 15, 0, 60]];
+    let used = [8, 94, 60];
     let peaks = [[0, 2, 1], [0, 1, 1]];
     let frame = |peaks: [u64; 3]| {
         let mut counters = Counters::default();
@@ -35,7 +36,7 @@ pub(crate) fn timed_report() -> Report {
                 blocked,
                 blocked_by_order,
                 total: parts[k].iter().sum(),
-                used: 0,
+                used: used[k],
                 tokens_in: works[k].tokens_in,
                 tokens_out: works[k].tokens_out,
                 fifo_peak: peaks[k],

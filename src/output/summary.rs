@@ -131,7 +131,8 @@ fn shares(report: &Report, whole: &Frame) -> Value {
     let times = whole.times.iter().flat_map(|times| &times.stages);
     for (stage, t) in report.chain.iter().zip(times) {
         let block = stage.block.name();
-        share(format!("{block} busy (utilisation) of its cycles"), t.busy, t.total);
+        share(format!("{block} used (utilisation) of its cycles"), t.used, t.total);
+        share(format!("{block} busy of its cycles"), t.busy, t.total);
         share(format!("{block} starved of its cycles"), t.starved + t.starved_by_port, t.total);
         share(format!("{block} blocked of its cycles"), t.blocked + t.blocked_by_order, t.total);
     }
@@ -167,7 +168,7 @@ mod tests {
         assert_eq!(value["shares"]["patches clipped of patches"], Value::Null);
         assert_eq!(value["shares"]["link.bytes.commands of link bytes"], 0.0);
         assert!(value["totals"].get("stitch.triangles").is_none());
-        assert_eq!(value["engine"], "none");
+        assert_eq!(value["engine"], "timed");
         assert!(value["rates"].get("time").is_none());
 
         let folder = tempfile::tempdir().unwrap();
@@ -195,7 +196,8 @@ mod tests {
         assert_eq!(totals["vertex_shader.cycles.starved"], 240);
         assert_eq!(totals["vertex_shader.cycles.starved.by.stitch"], 210);
         let shares = &value["shares"];
-        assert_eq!(shares["stitch busy (utilisation) of its cycles"], 0.95);
+        assert_eq!(shares["stitch used (utilisation) of its cycles"], 0.94);
+        assert_eq!(shares["stitch busy of its cycles"], 0.95);
         assert_eq!(shares["vertex_shader starved of its cycles"], 0.4);
         assert_eq!(shares["vertex_shader blocked of its cycles"], 0.2);
     }

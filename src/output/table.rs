@@ -216,15 +216,15 @@ time
   elapsed cycles                     200
   cycles per triangle             25.000
   milliseconds at 2000 MHz         0.000
-  block             busy  starved  blocked    fifo peak   waits for
-  link            10.0 %    0.0 %   90.0 %            -   stitch
-  stitch          95.0 %    4.0 %    1.0 %       2 of 4   link, vertex_shader
-  vertex_shader   40.0 %   40.0 %   20.0 %       1 of 4   stitch, order, port
+  block             used     busy  starved  blocked    fifo peak   waits for
+  link             8.0 %   10.0 %    0.0 %   90.0 %            -   stitch
+  stitch          94.0 %   95.0 %    4.0 %    1.0 %       2 of 4   link, vertex_shader
+  vertex_shader   20.0 %   40.0 %   40.0 %   20.0 %       1 of 4   stitch, order, port
 
 verdict
   link bytes per triangle          0.000
     if the host tessellated        0.000
-  what binds the run: stitch, busy 95.0 % of the time
+  what binds the run: stitch, used 94.0 % of the time
     upstream waits for it: link blocked 90.0 % by stitch
     downstream starves: vertex_shader starved 35.0 % by stitch
 ";
@@ -245,12 +245,12 @@ verdict
                 assert!(said.contains(expected), "{said}: {expected}");
             }
         };
-        let drain = ["latency", "even stitch, the busiest, is busy only 49.0 %", "draining"];
-        says(|t| t.stages[1].busy = 49, &drain);
-        let first = ["link, busy 95.0 %", "downstream starves: vertex_shader starved 35.0 %"];
-        says(|t| t.stages[0].busy = 95, &first); // the first of equals, with nobody before it
-        let last = ["vertex_shader, busy 96.0 %", "upstream waits for it: stitch blocked 1.0 %"];
-        says(|t| t.stages[2].busy = 288, &last);
+        let drain = ["latency", "even stitch, the most used, is used only 49.0 %", "draining"];
+        says(|t| t.stages[1].used = 49, &drain);
+        let first = ["link, used 94.0 %", "downstream starves: vertex_shader starved 35.0 %"];
+        says(|t| t.stages[0].used = 94, &first); // the first of equals, with nobody before it
+        let last = ["vertex_shader, used 96.0 %", "upstream waits for it: stitch blocked 1.0 %"];
+        says(|t| t.stages[2].used = 288, &last);
         let alone = ["stitch", "upstream hardly waits for it", "downstream hardly starves"];
         says(|t| (t.stages[0].blocked, t.stages[2].starved) = (0, 0), &alone);
         says(|t| t.stages.iter_mut().for_each(|s| s.total = 0), &["nothing ran"]);

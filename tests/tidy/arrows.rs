@@ -24,6 +24,15 @@ const LEAVES: [&str; 4] = ["config", "error", "sink", "report"];
 /// Parts that may not see all of `rtl_model`, and what they may see.
 const OF_HARDWARE: [(&str, &[&str]); 2] = [("golden", &["patch"]), ("gpu", &["number", "patch"])];
 
+/// The engines of time, and what each may not name. Two engines that agree are believable as far as
+/// they share nothing but the declarations in `time.rs`; the books of `account` are shared by those
+/// that compute times, so the one that counts cycles keeps its own.
+const APART: [(&str, &[&str]); 3] = [
+    ("timed", &["stepped", "Stepped", "ordered", "Ordered"]),
+    ("ordered", &["stepped", "Stepped", "timed", "Timed"]),
+    ("stepped", &["timed", "Timed", "ordered", "Ordered", "account"]),
+];
+
 /// The modules that `lib.rs` of `rtl_model` lists, in its order: the order of the data.
 pub(crate) fn module_order(lib: &str) -> Vec<String> {
     let tokens = lexer::tokens(lib);
@@ -66,6 +75,19 @@ pub(crate) fn problems(path: &str, text: &str, order: &[String]) -> (usize, Vec<
         }
     }
     (imports.len(), problems)
+}
+
+/// The engine whose file is at `path`, and where it names another.
+pub(crate) fn engine(path: &str, text: &str) -> Option<(&'static str, Vec<String>)> {
+    let inside = path.strip_prefix("rtl_model/src/time/")?;
+    let stem = inside.split('/').next()?.trim_end_matches(".rs");
+    let (engine, others) = APART.into_iter().find(|(name, _)| *name == stem)?;
+    // The name is enough, however it was imported: a comment is no token.
+    let tokens = lexer::without_tests(&lexer::tokens(text));
+    let named = tokens.iter().filter(|token| others.contains(&token.text));
+    let problem =
+        |token: &Token<'_>| format!("{path}:{}: {engine} may not know {}", token.line, token.text);
+    Some((engine, named.map(problem).collect()))
 }
 
 /// A part imports itself, the leaves, and what its row says. What the crate's root re-exports is a

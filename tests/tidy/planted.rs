@@ -106,6 +106,27 @@ fn the_parts_of_the_simulator_keep_their_places() {
 }
 
 #[test]
+fn engines_that_know_each_other_are_found_however_they_are_imported() {
+    let wrong = |name: &str, code: &str| {
+        arrows::engine(&format!("rtl_model/src/time/{name}"), code).expect("an engine").1.len()
+    };
+    assert_eq!(wrong("timed.rs", "use super::account::Fifo; use super::{Block, Shape};"), 0);
+    assert_eq!(wrong("timed.rs", "use super::stepped::Stepped;"), 2);
+    assert_eq!(wrong("timed.rs", "use super::*; fn f(x: ordered::Event) {}"), 1);
+    assert_eq!(wrong("timed/lane.rs", "use crate::time::{Shape, stepped};"), 1);
+    assert_eq!(wrong("ordered.rs", "use super::account::Lanes;"), 0);
+    assert_eq!(wrong("ordered.rs", "use super::{account::Lanes, timed};"), 1);
+    assert_eq!(wrong("stepped.rs", "use crate::{time::account::Fifo};"), 1);
+    assert_eq!(wrong("stepped.rs", "use super as t; type A = t::timed::Exact;"), 1);
+    assert_eq!(
+        wrong("stepped.rs", "//! As timed.\n#[cfg(test)] mod tests { use super::timed; }"),
+        0
+    );
+    assert!(arrows::engine("rtl_model/src/time/account.rs", "").is_none());
+    assert!(arrows::engine("src/timed.rs", "").is_none());
+}
+
+#[test]
 fn paths_of_machines_are_found_and_addresses_are_not() {
     let home = ["/ho", "me/me/x"].concat();
     assert_eq!(

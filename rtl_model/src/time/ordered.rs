@@ -303,7 +303,8 @@ impl<B: Block> Stage<B> {
 
     /// Takes out the oldest tokens while they have nothing left to emit.
     fn retire(&mut self, frames: &mut [FrameTimes], probe: &mut impl Probe) {
-        while let Some(flight) = self.flights.pop_front_if(|flight| flight.outputs == 0) {
+        while self.flights.front().is_some_and(|flight| flight.outputs == 0) {
+            let flight = self.flights.pop_front().expect("it is the oldest");
             let Flight { lane, frame, .. } = flight;
             self.left = self.left.max(flight.done);
             frames[frame].elapsed = frames[frame].elapsed.max(self.left);

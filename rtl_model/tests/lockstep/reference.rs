@@ -39,7 +39,7 @@ pub(crate) struct Times {
 struct Outputs(Vec<(usize, Triangle)>);
 
 impl Emit<Triangle> for Outputs {
-    fn emit(&mut self, triangle: Triangle, offset: u32) {
+    fn emit(&mut self, triangle: Triangle, offset: u64) {
         self.0.push((offset as usize, triangle));
     }
 }

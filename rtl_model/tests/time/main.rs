@@ -39,8 +39,8 @@ fn assert_conserved((times, log): &Outcome, pipeline: &Pipeline) {
 #[test]
 fn the_engines_agree_on_every_token_and_every_counter() {
     let (mut tokens, mut cycles) = (0, 0);
-    // The last one is the first of a long campaign in which tokens of two frames leave a lane in the
-    // run's last cycle.
+    // The last one is the first of a long campaign in which tokens of two frames leave a lane in
+    // the run's last cycle.
     for seed in (0..pipelines()).chain([14069]) {
         let pipeline = Pipeline::random(seed, false);
         let plain = stepped(&pipeline);
