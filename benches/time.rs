@@ -1,6 +1,6 @@
 //! How fast is time? Cycles a second of the engines on a plain pipeline of eight stages, dense (all
-//! stages do something in every cycle) and sparse; the whole unit, end to end; and the engines alone
-//! over what the host sent in that run, dense and behind a slow link.
+//! stages do something in every cycle) and sparse; the whole unit, end to end; and the engines
+//! alone over what the host sent in that run, dense, and sparse behind a slow shader.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rtl_model::counter::Counter;
