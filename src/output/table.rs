@@ -227,6 +227,7 @@ verdict
   what binds the run: stitch, used 94.0 % of the time
     upstream waits for it: link blocked 90.0 % by stitch
     downstream starves: vertex_shader starved 35.0 % by stitch
+    next would be vertex_shader, used 20.0 %
 ";
         assert_eq!(from(&text, "time\n"), expected);
     }
@@ -247,11 +248,11 @@ verdict
         };
         let drain = ["latency", "even stitch, the most used, is used only 49.0 %", "draining"];
         says(|t| t.stages[1].used = 49, &drain);
-        let first = ["link, used 94.0 %", "downstream starves: vertex_shader starved 35.0 %"];
+        let first = ["link, used 94.0 %", "vertex_shader starved 35.0 %", "next would be stitch"];
         says(|t| t.stages[0].used = 94, &first); // the first of equals, with nobody before it
-        let last = ["vertex_shader, used 96.0 %", "upstream waits for it: stitch blocked 1.0 %"];
+        let last = ["vertex_shader, used 96.0 %", "waits for it: stitch blocked 1.0 %", "stitch"];
         says(|t| t.stages[2].used = 288, &last);
-        let alone = ["stitch", "upstream hardly waits for it", "downstream hardly starves"];
+        let alone = ["stitch", "upstream hardly waits for it", "hardly starves", "next would be"];
         says(|t| (t.stages[0].blocked, t.stages[2].starved) = (0, 0), &alone);
         says(|t| t.stages.iter_mut().for_each(|s| s.total = 0), &["nothing ran"]);
     }

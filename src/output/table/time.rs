@@ -84,7 +84,8 @@ pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
     }
     table.line(&format!("{WHAT}{BOLD}{name}{PLAIN}, used {used} of the time"));
     let neighbours = [upstream(&report.chain, times, k), downstream(&report.chain, times, k)];
-    for consequence in neighbours.into_iter().flatten() {
+    let next = runner_up(&report.chain, times, k);
+    for consequence in neighbours.into_iter().flatten().chain(next) {
         table.line(&format!("    {consequence}"));
     }
 }
@@ -93,6 +94,13 @@ pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
 fn busiest(times: &FrameTimes) -> Option<(usize, f64)> {
     let shares = times.stages.iter().map(|t| ratio(t.used, t.total));
     largest(shares.enumerate().filter_map(|(k, share)| Some((k, share?))))
+}
+
+/// The block that is used most after `k`: what would bind if that were faster.
+fn runner_up(chain: &[Stage], times: &FrameTimes, k: usize) -> Option<String> {
+    let others = times.stages.iter().enumerate().filter(|&(i, _)| i != k);
+    let (i, used) = largest(others.filter_map(|(i, t)| Some((i, ratio(t.used, t.total)?))))?;
+    Some(format!("next would be {}, used {}", chain[i].block.name(), percent(used)))
 }
 
 /// The largest share, the first of equals.
