@@ -119,7 +119,7 @@ mod tests {
             of("0,hybrid,vertex_shader,cycles.blocked"),
             [",60,cycles", ".by.order,60,cycles"]
         );
-        assert_eq!(of("0,hybrid,vertex_shader,cycles.starved.by.port"), [",15,cycles"]);
+        assert_eq!(of("0,hybrid,vertex_shader,cycles.starved.by.memory_port"), [",15,cycles"]);
         assert!(of("0,hybrid,link,ops").is_empty() && of("0,hybrid,link,fifo").is_empty());
     }
 

@@ -152,7 +152,7 @@ pub fn printable(title: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Config;
+    use crate::config::{Config, Engine};
     use crate::output::timed_report;
     use rtl_model::time::FrameTimes;
 
@@ -166,7 +166,7 @@ mod tests {
         counters.add(Counter::EmitTriangles, 1_234_567);
         let blocks = &[Block::Link, Block::Level, Block::Emit];
         let report = Report {
-            config: Config::default(),
+            config: Config { engine: Engine::None, ..Config::default() },
             blocks,
             chain: Vec::new(),
             frames: vec![Frame { counters, ..Frame::default() }],
@@ -219,7 +219,7 @@ time
   block             used     busy  starved  blocked    fifo peak   waits for
   link             8.0 %   10.0 %    0.0 %   90.0 %            -   stitch
   stitch          94.0 %   95.0 %    4.0 %    1.0 %       2 of 4   link, vertex_shader
-  vertex_shader   20.0 %   40.0 %   40.0 %   20.0 %       1 of 4   stitch, order, port
+  vertex_shader   20.0 %   40.0 %   40.0 %   20.0 %       1 of 4   stitch, order, memory_port
 
 verdict
   link bytes per triangle          0.000

@@ -16,14 +16,14 @@ fn stages_that_share_a_port_wait_for_it_and_those_with_channels_do_not() {
         let [timed, stepped] =
             [Engine::Timed, Engine::Stepped].map(|engine| run_by(engine, &text, &shared));
         assert!(said(&timed) == said(&stepped), "the engines agree");
-        let waits = |block| row(&timed, block, "cycles.starved.by.port");
+        let waits = |block| row(&timed, block, "cycles.starved.by.memory_port");
         assert!(waits("memory") > 0 && waits("vertex_shader") > 0);
         let separate = run(&text, &set(&[SLOW[0], SLOW[1], channels]));
         assert!(elapsed(&timed) > elapsed(&separate));
         // A channel of its own is no shared port (assemble waits for the block of that name).
         let rows = said(&separate).0;
         for block in ["memory", "vertex_shader"] {
-            assert!(!rows.contains(&format!(",{block},cycles.starved.by.port,")));
+            assert!(!rows.contains(&format!(",{block},cycles.starved.by.memory_port,")));
         }
         // The port is never held by two at once: all that moves through it fits in the run.
         let vertices = timed.total(Counter::VertexShaderInvocations);
@@ -49,7 +49,7 @@ fn points_on_chip_do_not_ask_for_the_port() {
     assert_eq!(immediate.total(Counter::MemoryBursts), 0);
     assert!(resident.total(Counter::MemoryBursts) > 0);
     assert!(elapsed(&resident) > elapsed(&immediate));
-    assert_eq!(row(&immediate, "memory", "cycles.starved.by.port"), 0);
+    assert_eq!(row(&immediate, "memory", "cycles.starved.by.memory_port"), 0);
     // A memory of any speed is the same to a run that does not use it.
     let fast = run(&runs::grid(18, 3), &set(&["memory.channels=shared"]));
     assert_eq!(said(&fast), said(&immediate));

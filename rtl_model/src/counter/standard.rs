@@ -254,7 +254,7 @@ pub const STANDARD: &[Standard] = {
         ),
         row(
             Q::StarvedByPort,
-            "cycles.starved.by.port",
+            "cycles.starved.by.memory_port",
             Cycles,
             "of those, a token had arrived and waited for the shared memory port",
             "",
@@ -372,7 +372,7 @@ mod tests {
         assert_eq!(names(&chain, 0, "cycles.blocked."), ["cycles.blocked.by.memory"]);
         assert_eq!(
             names(&chain, 1, "cycles.starved."),
-            ["cycles.starved.by.link", "cycles.starved.by.port"]
+            ["cycles.starved.by.link", "cycles.starved.by.memory_port"]
         );
         assert_eq!(names(&chain, 2, "cycles.blocked."), ["cycles.blocked.by.order"]);
         assert_eq!(names(&chain, 0, "fifo"), Vec::<String>::new());

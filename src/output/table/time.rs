@@ -2,6 +2,7 @@
 //! the run.
 
 use super::{BOLD, DIM, PLAIN, Table, ratio};
+use crate::config::Engine;
 use crate::report::{Frame, Report};
 use rtl_model::counter::Counter;
 use rtl_model::counter::standard::{Quantity, Stage, Work, rows};
@@ -67,7 +68,9 @@ fn waits(chain: &[Stage], k: usize, t: &StageTimes) -> String {
 pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
     const WHAT: &str = "  what binds the run: ";
     let Some(times) = &whole.times else {
-        return table.line(&format!("{WHAT}no engine, so no cycles"));
+        let none = report.config.engine == Engine::None;
+        let why = if none { "no engine, so no cycles" } else { "nothing, for nothing ran" };
+        return table.line(&format!("{WHAT}{why}"));
     };
     let Some((k, utilisation)) = busiest(times) else {
         return table.line(&format!("{WHAT}nothing, for nothing ran"));
