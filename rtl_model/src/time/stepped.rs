@@ -3,7 +3,7 @@
 //! In each cycle, for each block from the first to the last: it accepts a token if one is visible
 //! and a lane can take it; one output leaves if it is ready and there is room; what is done retires
 //! in order. Blocks are visited in the order of the data, so a producer still sees the FIFO as it
-//! was when the cycle began; a token carries the cycle from which it is visible, so a consumer does
+//! was when the cycle began; what is pushed in a cycle does not count as held, so a consumer does
 //! not see it before the next.
 //!
 //! Nothing here is computed ahead: attribution counts cycles one by one, each when the next one
@@ -39,8 +39,10 @@ struct Stage<B: Block> {
     round_robin: usize,
     /// The cycle after the last acceptance.
     next_accept: u64,
-    /// Entries of the FIFO when the cycle began.
+    /// Entries of the FIFO when the cycle began: those that are visible.
     held: usize,
+    /// The frame of the token that was pushed in this cycle.
+    pushed: Option<usize>,
     /// Cycles that began with 0, 1, .. entries.
     occupancy: Vec<u64>,
     /// Frame by frame.
@@ -50,7 +52,6 @@ struct Stage<B: Block> {
 #[derive(Clone, Copy, Debug)]
 struct Entry<T> {
     token: T,
-    visible: u64,
     frame: usize,
 }
 
@@ -181,7 +182,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
     pub fn feed(&mut self, token: B::Token) {
         self.open_books();
         let host = &mut self.stages[0].fifo;
-        host.push_back(Entry { token, visible: 0, frame: self.frame });
+        host.push_back(Entry { token, frame: self.frame });
         // One token is kept back, so that the host never seems to have nothing to send.
         while self.stages[0].fifo.len() > 1 {
             self.cycle();
@@ -240,7 +241,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
             let (stages, after) = self.stages.split_at_mut(k + 1);
             let stage = &mut stages[k];
             let pushed = stage.begin(self.now);
-            if !stage.fifo.is_empty() {
+            if stage.held > 0 && stage.next_accept <= self.now {
                 stage.accept(self.now, granted == Some(k), &mut self.probe);
             }
             if stage.flights.is_empty() {
@@ -288,6 +289,7 @@ impl<B: Block> Stage<B> {
             round_robin: 0,
             next_accept: 0,
             held: 0,
+            pushed: None,
             occupancy: if index == 0 { Vec::new() } else { vec![0; shape.depth as usize + 1] },
             times: Vec::new(),
         }
@@ -304,15 +306,10 @@ impl<B: Block> Stage<B> {
         (self.round_robin, self.next_accept, self.held) = (0, 0, 0);
     }
 
-    /// The token at the door, if it is visible and a cycle has passed since the one before.
-    fn visible(&self, now: u64) -> Option<&Entry<B::Token>> {
-        self.fifo.front().filter(|entry| entry.visible <= now && self.next_accept <= now)
-    }
-
     /// The cycles for which the token at the door needs the shared port.
     fn wants_port(&self, now: u64) -> Option<u64> {
-        let entry = self.visible(now).filter(|_| self.shape.shares_port)?;
-        self.block.port(&entry.token)
+        let door = self.fifo.front().filter(|_| self.shape.shares_port);
+        self.block.port(&door.filter(|_| self.next_accept <= now)?.token)
     }
 
     fn is_free(&self, lane: &Lane, now: u64) -> bool {
@@ -341,17 +338,13 @@ impl<B: Block> Stage<B> {
         if let Some(held) = self.occupancy.get_mut(self.held) {
             *held += u64::from(now > 0);
         }
-        let pushed = self.fifo.back().filter(|newest| newest.visible > now);
-        let pushed = pushed.map(|newest| newest.frame);
+        let pushed = self.pushed.take();
         self.held = self.fifo.len() - usize::from(pushed.is_some());
         pushed
     }
 
-    /// Accepts the token at the door, if a lane can take it.
+    /// Accepts the token at the door, which is visible, if a lane can take it.
     fn accept(&mut self, now: u64, granted: bool, probe: &mut impl Probe) {
-        if self.visible(now).is_none() {
-            return;
-        }
         if self.shape.shares_port && self.wants_port(now).is_some() && !granted {
             for k in 0..self.lanes.len() {
                 if self.is_free(&self.lanes[k], now) {
@@ -413,7 +406,8 @@ impl<B: Block> Stage<B> {
                 self.times[frame].tokens_out += 1;
                 probe.emitted(self.index, now);
                 if let Some(next) = &mut next {
-                    next.fifo.push_back(Entry { token, visible: now + 1, frame });
+                    next.fifo.push_back(Entry { token, frame });
+                    next.pushed = Some(frame);
                 }
             }
             if last {
