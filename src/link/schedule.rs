@@ -112,9 +112,9 @@ impl MemorySchedule {
         (bytes > 0).then(|| self.reads.whole_cycles(bytes.into()))
     }
 
-    /// A parcel: until the next can be accepted; its points leave by [`Self::offset`]. An upload is
-    /// posted: where reads have a channel of their own, it holds up what follows only as far as
-    /// memory is slower than the link.
+    /// A parcel: until the next can be accepted; when its points leave says [`Points::offset`]. An
+    /// upload is posted: where reads have a channel of their own, it holds up what follows only as
+    /// far as memory is slower than the link.
     pub fn accept(&mut self, parcel: &Parcel) -> Points {
         let shared = self.shape.shares_port;
         let cycles = if parcel.read > 0 { self.reads.occupy(parcel.read.into()) } else { 0 };

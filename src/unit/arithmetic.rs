@@ -8,7 +8,7 @@
 //! small constant is its additions (3 x = 2 x + x). Addresses and loop counts are control.
 //!
 //! Divisions and roots are those of a multiplier and an 8-bit table, whose bits Newton's iteration
-//! doubles step by step: [`reciprocal`], [`quotient`], [`root`].
+//! doubles step by step: `reciprocal`, `quotient`, `root`.
 
 mod level;
 

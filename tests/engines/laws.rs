@@ -2,7 +2,6 @@
 //! block enters the next, and the run's cycles are each block's.
 
 use crate::runs::{self, run, set};
-use rtl_model::counter::Block;
 use rtl_model::counter::standard::Stage;
 use std::collections::HashMap;
 use tessim::report::{Frame, Report};
@@ -79,18 +78,20 @@ fn every_cycle_of_every_lane_is_in_one_row() {
                 rows += frame(&report, &report.whole(), true);
                 for row in report.rows(&report.whole()) {
                     let Some((kind, by)) = row.name.rsplit_once(".by.") else { continue };
-                    // Assemble waits for the block that is called port, too.
-                    let memory_port = by == "port" && row.block != Block::Assemble;
-                    let by = if by == "order" || memory_port { by } else { "a neighbour" };
+                    let is_neighbour = by != "order" && by != "memory_port";
+                    let by = if is_neighbour { "a neighbour" } else { by };
                     *kinds.entry(format!("{kind} by {by}")).or_default() += row.value;
                 }
             }
         }
     }
     // Laws between rows that are always 0 would hold of anything.
-    for kind in
-        ["blocked by a neighbour", "blocked by order", "starved by a neighbour", "starved by port"]
-    {
+    for kind in [
+        "blocked by a neighbour",
+        "blocked by order",
+        "starved by a neighbour",
+        "starved by memory_port",
+    ] {
         assert!(kinds[&format!("cycles.{kind}")] > 0, "{kind} did not occur: {kinds:?}");
     }
     println!("compared {rows} rows");
