@@ -1,29 +1,16 @@
 //! How fast is function? Triangles a second through the whole unit, trace parsing excluded: teacups
 //! at level 16, with and without culling and divide, on one thread and on two.
 
+mod scene;
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rtl_model::counter::Counter;
-use rtl_model::level;
-use rtl_model::patch::Level;
+use scene::teacups;
 use std::hint::black_box;
-use std::io::BufReader;
-use tessim::config::{BackfaceMethod, Config};
+use tessim::config::{BackfaceMethod, Config, Engine};
 use tessim::sink::NoMesh;
-use tessim::trace::command::{Command, Tessellation};
-use tessim::trace::read::Reader;
-use tessim::trace::scene::teacups::Teacups;
+use tessim::trace::command::Command;
 use tessim::unit::simulate;
-
-/// A frame of a hundred teacups at fixed level 16.
-fn teacups() -> Vec<Command> {
-    let fixed = level::Criterion::Fixed { level: Level::clamped(16 << 16) };
-    let tessellation = Tessellation { criterion: fixed, min_level: 1 << 16, max_level: 64 << 16 };
-    let scene = Teacups { count: 100, frames: 4, tessellation };
-    let mut text = Vec::new();
-    scene.write(&mut text).expect("a vector takes it all");
-    let reader = Reader::new(BufReader::new(&text[..]), "teacups", ".");
-    reader.map(|located| located.expect("a scene is well-formed").command).collect()
-}
 
 fn run(commands: &[Command], config: &Config) -> u64 {
     let commands = commands.iter().cloned().map(Ok);
@@ -33,8 +20,8 @@ fn run(commands: &[Command], config: &Config) -> u64 {
 
 fn function(criterion: &mut Criterion) {
     let commands = teacups();
-    let whole = Config::default();
-    let mut bare = Config::default();
+    let whole = Config { engine: Engine::None, ..Config::default() };
+    let mut bare = whole.clone();
     bare.clip.enabled = false;
     bare.backface.method = BackfaceMethod::Off;
     bare.emit.divide = false;

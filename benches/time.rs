@@ -2,20 +2,17 @@
 //! stages do something in every cycle) and sparse; the whole unit, end to end; and the engines
 //! alone over what the host sent in that run, dense, and sparse behind a slow shader.
 
+mod scene;
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rtl_model::counter::Counter;
-use rtl_model::level;
-use rtl_model::patch::Level;
 use rtl_model::time::stepped::Stepped;
 use rtl_model::time::timed::Timed;
 use rtl_model::time::{Block, Cost, Emit, Frames, LaneOrder, Shape, Times};
+use scene::teacups;
 use std::hint::black_box;
-use std::io::BufReader;
 use tessim::config::{Config, Engine};
 use tessim::sink::NoMesh;
-use tessim::trace::command::{Command, Tessellation};
-use tessim::trace::read::Reader;
-use tessim::trace::scene::teacups::Teacups;
 use tessim::unit::{record, simulate};
 
 /// Tokens of a run: as many cycles, but for the latency.
@@ -57,17 +54,6 @@ fn stepped(interval: u32) -> Times {
     (0..TOKENS).for_each(|token| engine.feed(token));
     engine.end_frame();
     engine.finish().0
-}
-
-/// Four frames of a hundred teacups at fixed level 16.
-fn teacups() -> Vec<Command> {
-    let fixed = level::Criterion::Fixed { level: Level::clamped(16 << 16) };
-    let tessellation = Tessellation { criterion: fixed, min_level: 1 << 16, max_level: 64 << 16 };
-    let scene = Teacups { count: 100, frames: 4, tessellation };
-    let mut text = Vec::new();
-    scene.write(&mut text).expect("a vector takes it all");
-    let reader = Reader::new(BufReader::new(&text[..]), "teacups", ".");
-    reader.map(|located| located.expect("a scene is well-formed").command).collect()
 }
 
 fn one_thread() -> rayon::ThreadPool {
