@@ -8,6 +8,9 @@ use super::{Config, Criterion, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
 use std::fmt::Display;
 
+/// Most tokens in flight in all lanes of a block: what is held for them stays below 32 MB.
+const SLOTS_MAX: u64 = 1 << 22;
+
 /// A value that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
@@ -156,6 +159,14 @@ impl Config {
             if let Some(tokens) = costs.in_flight {
                 within(key("in_flight"), tokens, 1, ENTRIES_MAX)?;
             }
+            let (lanes, tokens) = (costs.lanes, costs.in_flight());
+            if u64::from(lanes) * u64::from(tokens) > SLOTS_MAX {
+                let message = format!(
+                    "found {lanes} lanes of {tokens} tokens in flight, expected at most \
+                     {SLOTS_MAX} in all"
+                );
+                return Err(Problem { key: key("lanes"), message });
+            }
         }
         // Written by hand they are checked even under `off`, where no patch takes them.
         let backface = &self.block.backface;
@@ -247,6 +258,13 @@ mod tests {
         refused("block.stitch.fifo", |c| c.block.stitch.fifo = 0);
         refused("block.stitch.fifo", |c| c.block.stitch.fifo = 65537);
         refused("block.port.in_flight", |c| c.block.port.in_flight = Some(0));
+        // 4096 x 1024 slots are as many as there may be; a latency of 1024 takes 1025 a lane.
+        let lanes = |latency| {
+            let mut config = Config::default();
+            (config.block.port.lanes, config.block.port.latency) = (4096, latency);
+            config.problem().map_err(|problem| problem.key)
+        };
+        assert_eq!((lanes(1023), lanes(1024)), (Ok(()), Err("block.port.lanes")));
         refused("block.evaluate.setup", |c| c.block.evaluate.setup = 1_000_001);
         refused("level.min_level", |c| {
             c.level.min_level = Some(4.0);
