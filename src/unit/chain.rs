@@ -151,21 +151,7 @@ impl Block for Stage {
 /// The timed blocks of a unit, in the order of the data.
 pub(super) fn blocks(unit: Unit) -> &'static [Name] {
     match unit {
-        Unit::Hybrid => &[
-            Name::Link,
-            Name::Memory,
-            Name::Transform,
-            Name::Port,
-            Name::Assemble,
-            Name::Clip,
-            Name::Backface,
-            Name::Level,
-            Name::Place,
-            Name::Evaluate,
-            Name::Stitch,
-            Name::Emit,
-            Name::VertexShader,
-        ],
+        Unit::Hybrid => &super::blocks(unit)[1..], // all but the trace
         Unit::Triangles => &[Name::Link, Name::VertexShader],
     }
 }
