@@ -140,6 +140,26 @@ mod tests {
     }
 
     #[test]
+    fn presets_have_the_machines_published_numbers_and_the_fifos_their_depths() {
+        let numbers = Preset::ALL.map(|preset| {
+            let Config { clock_mhz, link, memory, block, .. } = preset.config();
+            let wires = [link.bandwidth_mb_s, link.payload, memory.bandwidth_mb_s, memory.burst];
+            (clock_mhz, wires, block.vertex_shader.fifo)
+        });
+        let expected = [
+            (200, [1066, 0, 7360, 16], 24),
+            (850, [8000, 128, 153_600, 32], 32),
+            (880, [8000, 128, 176_000, 32], 32),
+            (2000, [31_508, 256, 448_000, 32], 32),
+        ];
+        assert_eq!(numbers, expected);
+        let block = Preset::Modern.config().block;
+        // Patches, rows, triangles, vertices.
+        let depths = [block.clip.fifo, block.stitch.fifo, block.emit.fifo, block.transform.fifo];
+        assert_eq!(depths, [4, 2, 16, 32]);
+    }
+
+    #[test]
     fn reads_under_way_cover_the_latency_and_are_not_many_more() {
         for preset in Preset::ALL {
             let Config { clock_mhz, link, memory, .. } = preset.config();
