@@ -84,6 +84,8 @@ pub struct Config {
     pub frames: Frames,
     /// Positions behind the port.
     pub position: Position,
+    /// Primitives to patches.
+    pub assemble: Assemble,
     /// Levels.
     pub level: Level,
     /// Trivial clipping.
@@ -92,6 +94,8 @@ pub struct Config {
     pub backface: Backface,
     /// Points of the surface.
     pub evaluate: Evaluate,
+    /// Attributes of corners, interpolated over the patch.
+    pub attributes: Attributes,
     /// Divide and output.
     pub emit: Emit,
     /// The vertex shader.
@@ -120,6 +124,26 @@ pub struct Position {
     /// when absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clip_range_log2: Option<i32>,
+}
+
+/// Primitives to patches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Assemble {
+    /// Entries of the cache of an indexed mesh's transformed points, 0..=65536.
+    pub cache_entries: u32,
+}
+
+/// Attributes of corners, interpolated over the patch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Attributes {
+    /// Bits of a component with its sign, 8..=46.
+    pub width: u32,
+    /// Fraction bits of a component, 0..=width - 1.
+    pub fraction: u32,
+    /// How a component is rounded when it enters and when it is interpolated.
+    pub rounding: Rounding,
 }
 
 /// Levels. Absent: as the trace says.
@@ -226,6 +250,8 @@ pub struct VertexShader {
 pub struct Triangles {
     /// Bytes of a vertex on the link: position 12, normal 12, texture coordinates 8.
     pub vertex_bytes: u32,
+    /// Bytes of a vertex besides its attributes, in draws that have them: position 12, normal 12.
+    pub bare_vertex_bytes: u32,
 }
 
 impl Default for Config {
@@ -237,10 +263,12 @@ impl Default for Config {
             clock_mhz: 2000,
             frames: Frames::default(),
             position: Position::default(),
+            assemble: Assemble::default(),
             level: Level::default(),
             clip: Clip::default(),
             backface: Backface::default(),
             evaluate: Evaluate::default(),
+            attributes: Attributes::default(),
             emit: Emit::default(),
             vertex_shader: VertexShader::default(),
             link: Link::default(),
@@ -259,6 +287,28 @@ impl Default for Position {
             overflow: Overflow::Saturate,
             clip_range_log2: None,
         }
+    }
+}
+
+impl Default for Assemble {
+    /// Twice the sixteen points of a patch: that of a mesh's neighbour is still there.
+    fn default() -> Self {
+        Self { cache_entries: 32 }
+    }
+}
+
+impl Default for Attributes {
+    /// Q16.16: colours to more than their 8 bits, texture coordinates up to 32768 repeats.
+    fn default() -> Self {
+        Self { width: 32, fraction: 16, rounding: Rounding::NearestEven }
+    }
+}
+
+impl Attributes {
+    /// Bytes of a component that leaves the unit.
+    #[must_use]
+    pub fn component_bytes(&self) -> u64 {
+        self.width.div_ceil(8).into()
     }
 }
 
@@ -305,7 +355,7 @@ impl Default for VertexShader {
 
 impl Default for Triangles {
     fn default() -> Self {
-        Self { vertex_bytes: 32 }
+        Self { vertex_bytes: 32, bare_vertex_bytes: 24 }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where triangles go: the interface between the units and whoever consumes their meshes. A leaf.
 
 use crate::error::Result;
+use crate::trace::attributes::Attribute;
 use rtl_model::emit::Screen;
 use rtl_model::patch::{Triangle, Vertex, View};
 
@@ -16,7 +17,7 @@ pub struct FrameInfo {
 }
 
 /// What a unit made of one patch.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct PatchMesh<'a> {
     /// Number of the patch within its frame, before culling, in draw order.
     pub patch: u32,
@@ -28,6 +29,10 @@ pub struct PatchMesh<'a> {
     pub screen: &'a [Screen],
     /// Triangles over `vertices`.
     pub triangles: &'a [Triangle],
+    /// What each vertex has besides, in order; nothing where the draw has no attributes.
+    pub layout: &'a [Attribute],
+    /// Components of attributes, vertex after vertex, raw in the configured attribute format.
+    pub attributes: &'a [i64],
 }
 
 /// A consumer of meshes. Patches arrive in draw order, whatever the number of threads.

@@ -141,16 +141,20 @@ counters! {
         LinkCommands "bytes.commands" Bytes "command headers, 8 bytes a command other than the trace's header and end", "";
         LinkMatrices "bytes.matrices" Bytes "matrices, 64 bytes each: view and projection of a frame, model or instances of a draw", "";
         LinkControlPoints "bytes.control_points" Bytes "control points, 12 bytes (xyz) or 16 (xyzw), where their command stands", "";
+        LinkAttributes "bytes.attributes" Bytes "attributes of corners, each component by its format, where their command stands", "";
         LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`)", "";
-        LinkIndices "bytes.indices" Bytes "triangle indices (unit `triangles`), 2 bytes, or 4 where a draw has more than 65536 vertices", "";
+        LinkIndices "bytes.indices" Bytes "indices of indexed meshes, 2 or 4 bytes each: 16 a patch, and 4 of its corners' attributes; in unit `triangles` those of triangles, 2 bytes, or 4 where a draw has more than 65536 vertices", "";
         LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload; under pull for each completion of its reads", "";
         LinkRequests "bytes.requests" Bytes "read requests, upstream: one for each started `link.request` bytes of a command under pull; 0 under push", "";
         LinkTotal "bytes.total" Bytes "all bytes that crossed the link, in both directions", "= sum of the other link bytes";
     }
     Memory {
-        MemoryReadControlPoints "bytes.read.control_points" Bytes "resident control points, read by each instance of each draw that uses them", "";
+        MemoryReadControlPoints "bytes.read.control_points" Bytes "resident control points, read by each instance of each draw that uses them", "<= bytes.uncached.control_points where a mesh is indexed";
+        MemoryUncachedControlPoints "bytes.uncached.control_points" Bytes "what the reads of resident control points would be without the cache of an indexed mesh's points", ">= bytes.read.control_points";
+        MemoryReadAttributes "bytes.read.attributes" Bytes "resident attributes, read by each instance of each draw that uses them", "";
         MemoryWrittenControlPoints "bytes.written.control_points" Bytes "resident control points, written once where their command stands", "<= link bytes.control_points";
-        MemoryBursts "bursts" Count "memory bursts, read and written; each instance of a draw and each upload starts a burst of its own", "bursts x burst = bytes read + written + wasted";
+        MemoryWrittenAttributes "bytes.written.attributes" Bytes "resident attributes, written once where their command stands", "<= link bytes.attributes";
+        MemoryBursts "bursts" Count "memory bursts, read and written; each instance of a draw, each upload, and each point of an indexed mesh that does not follow the one before starts a burst of its own", "bursts x burst = bytes read + written + wasted";
         MemoryWasted "bytes.wasted" Bytes "bytes of bursts that nothing asked for", "";
     }
     Transform {
@@ -161,13 +165,19 @@ counters! {
     Port {
         PortPoints "points" Count "control points quantised", "= transform invocations";
         PortSaturated "saturated" Count "control points of which a coordinate did not fit the position format", "<= port points";
+        PortAttributesSaturated "attributes.saturated" Count "components of attributes that did not fit the attribute format, once where their command stands", "";
         PortOverflows "overflows" Count "coordinates that did not fit the position format", "saturated <= overflows <= 4 x saturated";
     }
     Assemble {
         AssembleReceived "control_points.received" Count "control points that entered, once for each instance", "= port points";
         AssembleReused "control_points.reused" Count "control points of patches taken from on-chip state instead of the stream", "received + reused = 16 x patches";
+        AssembleWhole "patches.whole" Count "patches of an indexed mesh of which every control point was on chip", "<= patches";
+        AssembleCorners "corners.received" Count "corners of patches with attributes that entered, once for each instance", "";
+        AssembleCornersReused "corners.reused" Count "corners with attributes taken from on-chip state instead of the stream", "received + reused = 4 x patches with attributes";
         AssemblePatches "patches" Count "patches assembled", "= trace patches = clip patches.in";
-        AssembleEdgePeak "edge_entries.peak" Entries "most control points of shared edges held at once: a mesh's last row and the last patch's column", "";
+        AssembleEdgePeak "edge_entries.peak" Entries "most control points of shared edges held at once: a mesh's last row and the last patch's column, a strip's or fan's last edge", "";
+        AssembleEdgeLifetime "edge_entries.lifetime.peak" Count "most patches between the one that brings a shared control point and the last that uses it", "";
+        AssembleCornerPeak "corner_entries.peak" Entries "most corners whose attributes are held at once for a later patch", "";
     }
     Clip {
         ClipIn "patches.in" Count "patches tested", "= assemble patches";
@@ -196,6 +206,7 @@ counters! {
         EvaluateStrips "strips" Count "strips of triangles handed to the stitcher: the gaps between interior rows, the half-sides, the segments across a centre", "= stitch tokens.in";
         EvaluateCurves "curves" Count "curves set up for forward differencing, a half-run each; 0 under de Casteljau", "";
         EvaluateSteps "steps" Count "forward-difference steps of a vec4, or de Casteljau curve points", "";
+        EvaluateAttributes "attributes" Count "components of attributes interpolated: a draw's, at each of its vertices", "";
         EvaluateNormals "normals" Count "tangent planes evaluated", "= vertices or 0";
         EvaluateNormalsDegenerate "normals.degenerate" Count "vertices where the tangent plane vanishes", "<= normals";
         EvaluateOverflows "overflows" Count "coordinates of evaluated points that did not fit the position format", "";
@@ -207,7 +218,8 @@ counters! {
     Emit {
         EmitVertices "vertices" Count "vertices that left the unit", "= evaluate vertices";
         EmitTriangles "triangles" Count "triangles that left the unit", "= stitch triangles";
-        EmitBytes "bytes" Bytes "vertex records and triangle indices that left the unit", "= vertices x vertex_bytes + 3 x triangles x index_bytes";
+        EmitAttributeBytes "bytes.attributes" Bytes "interpolated attributes that left the unit with its vertices", "= evaluate attributes x bytes of a component";
+        EmitBytes "bytes" Bytes "vertex records, attributes and triangle indices that left the unit", "= vertices x vertex_bytes + bytes.attributes + 3 x triangles x index_bytes";
         EmitToClipper "vertices.to_clipper" Count "vertices left homogeneous: w <= 0, or outside the sub-pixel format's band", "<= vertices";
     }
     VertexShader {

@@ -39,6 +39,8 @@ pub mod strip;
 
 pub mod evaluate;
 
+pub mod attribute;
+
 pub mod stitch;
 
 pub mod emit;

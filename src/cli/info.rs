@@ -44,6 +44,8 @@ struct Tally {
     patches: u64,
     /// Points by where they live and how many coordinates they have.
     points: HashMap<(bool, u32), u64>,
+    /// Corners with attributes.
+    corners: u64,
 }
 
 impl Tally {
@@ -55,6 +57,7 @@ impl Tally {
                 let kind = (points.source.file().is_some(), points.source.components());
                 *self.points.entry(kind).or_default() += points.source.len();
             }
+            Command::Attributes(attributes) => self.corners += attributes.table.corners(),
             Command::Draw(draw) => {
                 self.draws += 1;
                 self.instances += draw.models.len() as u64;
@@ -78,6 +81,7 @@ impl Tally {
             ("points xyzw", points((false, 4))),
             ("points xyz in files", points((true, 3))),
             ("points xyzw in files", points((true, 4))),
+            ("corners with attributes", self.corners.to_string()),
         ]
     }
 }

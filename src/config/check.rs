@@ -4,7 +4,7 @@
 
 use super::block::{CYCLES_MAX, ENTRIES_MAX, LANES_MAX, TIMED};
 use super::link::BANDWIDTH_MAX;
-use super::{Config, Criterion, WIDTH_MAX, keys};
+use super::{Attributes, Config, Criterion, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
 use std::fmt::Display;
 
@@ -63,6 +63,12 @@ impl Config {
         if guard < 1 || width.saturating_add(guard).saturating_add(3) > 63 {
             return Err(Problem::found("evaluate.guard", guard_found(guard, width)));
         }
+        let Attributes { width, fraction, .. } = self.attributes;
+        within("attributes.width", width, 8, 46)?;
+        if fraction >= width {
+            let found = format!("{fraction} with attributes.width {width}");
+            return Err(Problem::found("attributes.fraction", found));
+        }
         within("emit.subpixel_bits", self.emit.subpixel_bits, 0, 12)
     }
 
@@ -108,7 +114,9 @@ impl Config {
         within("vertex_shader.bytes_in", self.vertex_shader.bytes_in, 0, most)?;
         within("vertex_shader.bytes_in_normal", self.vertex_shader.bytes_in_normal, 0, most)?;
         within("vertex_shader.bytes_out", self.vertex_shader.bytes_out, 0, most)?;
-        within("triangles.vertex_bytes", self.triangles.vertex_bytes, 1, most)
+        within("assemble.cache_entries", self.assemble.cache_entries, 0, most)?;
+        within("triangles.vertex_bytes", self.triangles.vertex_bytes, 1, most)?;
+        within("triangles.bare_vertex_bytes", self.triangles.bare_vertex_bytes, 1, most)
     }
 }
 

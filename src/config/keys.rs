@@ -48,6 +48,11 @@ const PLAIN: &[Key] = &[
         "-126..=127",
         ("4", "the trace's range, else the largest w on the far plane"),
     ),
+    key(
+        "assemble.cache_entries",
+        "transformed points that the cache of an indexed mesh holds, first in first out; 0: none",
+        "0..=65536",
+    ),
     optional(
         "level.criterion",
         "overrides the trace's criterion; goes with its number",
@@ -95,6 +100,13 @@ const PLAIN: &[Key] = &[
     ),
     key("evaluate.rounding", "how an evaluated point is rounded", ROUNDING),
     key("evaluate.normals", "what the vertex shader gets to light with", "off or tangent_plane"),
+    key("attributes.width", "bits of an attribute's component, with its sign", "8..=46"),
+    key(
+        "attributes.fraction",
+        "fraction bits of an attribute's component",
+        "0..=45, less than attributes.width",
+    ),
+    key("attributes.rounding", "how attributes are rounded", ROUNDING),
     key("emit.divide", "divide by w and snap to the sub-pixel grid", "true or false"),
     key("emit.subpixel_bits", "fraction bits of a screen coordinate", "0..=12"),
     key("emit.rounding", "how a screen coordinate is rounded", ROUNDING),
@@ -161,6 +173,11 @@ const PLAIN: &[Key] = &[
     ),
     key("memory.fifo", "entries of the FIFO before memory: commands", FIFO),
     key("triangles.vertex_bytes", "bytes of a vertex on the link, unit triangles", "1..=65536"),
+    key(
+        "triangles.bare_vertex_bytes",
+        "the same besides its attributes, in draws that have them",
+        "1..=65536",
+    ),
 ];
 
 const fn key(path: &'static str, meaning: &'static str, expected: &'static str) -> Key {

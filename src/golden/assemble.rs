@@ -31,16 +31,39 @@ pub fn patches(count: u32) -> Vec<Cell> {
     number(&(0..count).map(nodes).collect::<Vec<_>>())
 }
 
+/// `count` patches in a row that share the points of their common edges, numbered column by column.
+#[must_use]
+pub fn strip(count: u32) -> Vec<Cell> {
+    let transposed = |n: u32| nodes(0, 3 * n).map(|(row, column)| (column, row));
+    number(&(0..count).map(transposed).collect::<Vec<_>>())
+}
+
+/// `count` patches around a centre: cells of a lattice of spokes, of which the innermost ring is
+/// one node. A node is numbered by its sector, inner ones before those of the spoke that ends it,
+/// then by ring. `merged`: of the innermost inner nodes of a sector there is only one.
+#[must_use]
+pub fn fan(count: u32, merged: bool) -> Vec<Cell> {
+    let node = |n: u32, ring: u32, k: u32| match (ring, k) {
+        (0, _) => (0, 0, 0, 0),
+        (_, 0) => (n, 1, ring, 0),
+        (_, 3) => (n + 1, 1, ring, 0),
+        (1, _) if merged => (n + 1, 0, ring, 1),
+        _ => (n + 1, 0, ring, k),
+    };
+    let cell = |n| std::array::from_fn(|i| node(n, i as u32 / 4, i as u32 % 4));
+    number(&(0..count).map(cell).collect::<Vec<_>>())
+}
+
 /// The 4 x 4 nodes from (row, column) on.
 fn nodes(row: u32, column: u32) -> [(u32, u32); 16] {
     std::array::from_fn(|k| (row + k as u32 / 4, column + k as u32 % 4))
 }
 
-fn number(cells: &[[(u32, u32); 16]]) -> Vec<Cell> {
-    let lattice: BTreeSet<(u32, u32)> = cells.iter().flatten().copied().collect();
+fn number<N: Copy + Ord>(cells: &[[N; 16]]) -> Vec<Cell> {
+    let lattice: BTreeSet<N> = cells.iter().flatten().copied().collect();
     let numbers: BTreeMap<_, u64> = lattice.into_iter().zip(0..).collect();
     let mut seen = BTreeSet::new();
-    let cell = |nodes: &[(u32, u32); 16]| Cell {
+    let cell = |nodes: &[N; 16]| Cell {
         points: nodes.map(|node| numbers[&node]),
         new: nodes.iter().filter(|&&node| seen.insert(node)).count() as u64,
     };

@@ -17,6 +17,7 @@
 //! agree with its mistakes.
 
 pub mod assemble;
+pub mod attribute;
 pub mod backface;
 pub mod clip;
 pub mod control_point;

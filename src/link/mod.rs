@@ -10,7 +10,7 @@ pub mod schedule;
 pub mod wire;
 
 use crate::config::{Config, Link, Memory};
-use crate::trace::command::{Command, Draw, Points};
+use crate::trace::command::{Attributes, Command, Draw, Points};
 use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
 
@@ -32,9 +32,11 @@ pub struct Transfer {
     pub matrices: u64,
     /// Its control points.
     pub control_points: u64,
+    /// Its attributes.
+    pub attributes: u64,
     /// Its vertices (unit `triangles`).
     pub vertices: u64,
-    /// Its indices (unit `triangles`).
+    /// Its indices: an indexed mesh's, or the triangles' (unit `triangles`).
     pub indices: u64,
 }
 
@@ -42,7 +44,8 @@ impl Transfer {
     /// Bytes of all kinds, without framing.
     #[must_use]
     pub fn payload(&self) -> u64 {
-        self.command + self.matrices + self.control_points + self.vertices + self.indices
+        let Self { command, matrices, control_points, attributes, vertices, indices } = self;
+        command + matrices + control_points + attributes + vertices + indices
     }
 
     /// Bytes in both directions, with framing and read requests.
@@ -52,15 +55,11 @@ impl Transfer {
     }
 
     /// The same transfer with the triangles that a tessellating host sends, indexed over the whole
-    /// draw.
+    /// draw, a vertex of so many bytes.
     #[must_use]
-    pub fn with_triangles(self, vertices: u64, triangles: u64, config: &Config) -> Self {
+    pub fn with_triangles(self, vertices: u64, triangles: u64, vertex_bytes: u64) -> Self {
         let index = if vertices > SHORT_INDEX_MAX { 4 } else { 2 };
-        Self {
-            vertices: vertices * u64::from(config.triangles.vertex_bytes),
-            indices: 3 * triangles * index,
-            ..self
-        }
+        Self { vertices: vertices * vertex_bytes, indices: 3 * triangles * index, ..self }
     }
 
     /// Adds the transfer to the counters.
@@ -68,6 +67,7 @@ impl Transfer {
         counters.add(Counter::LinkCommands, self.command);
         counters.add(Counter::LinkMatrices, self.matrices);
         counters.add(Counter::LinkControlPoints, self.control_points);
+        counters.add(Counter::LinkAttributes, self.attributes);
         counters.add(Counter::LinkVertices, self.vertices);
         counters.add(Counter::LinkIndices, self.indices);
         let framed = Framed::of(self.payload(), link);
@@ -80,20 +80,42 @@ impl Transfer {
 /// What a command sends to a unit that tessellates.
 #[must_use]
 pub fn patches(command: &Command) -> Transfer {
-    let command_only = Transfer { command: COMMAND, ..Transfer::default() };
+    let bare = host(command);
     match command {
-        Command::Header(_) | Command::End => Transfer::default(),
-        Command::Frame(_) => Transfer { matrices: 2 * MATRIX, ..command_only },
         Command::Points(points) => {
-            Transfer { control_points: points.source.len() * point_bytes(points), ..command_only }
+            let control_points = points.source.len() * point_bytes(points);
+            Transfer { command: COMMAND, control_points, ..bare }
         }
-        Command::Tessellation(_) => command_only,
-        Command::Draw(draw) => Transfer { matrices: models(draw), ..command_only },
+        Command::Attributes(Attributes { table, .. }) => {
+            let attributes = table.corners() * table.corner_bytes();
+            Transfer { command: COMMAND, attributes, ..bare }
+        }
+        Command::Tessellation(_) => Transfer { command: COMMAND, ..bare },
+        Command::Draw(draw) => {
+            Transfer { indices: draw.indices.as_ref().map_or(0, |i| i.bytes()), ..bare }
+        }
+        Command::Header(_) | Command::End | Command::Frame(_) => bare,
     }
 }
 
-fn models(draw: &Draw) -> u64 {
-    if draw.models_sent { draw.models.len() as u64 * MATRIX } else { 0 }
+/// What a command sends where the host tessellates, without a draw's triangles: points, attributes
+/// and tessellation state stay with the host.
+#[must_use]
+pub fn host(command: &Command) -> Transfer {
+    match command {
+        Command::Frame(_) => {
+            Transfer { command: COMMAND, matrices: 2 * MATRIX, ..Transfer::default() }
+        }
+        Command::Draw(draw) => host_draw(draw),
+        _ => Transfer::default(),
+    }
+}
+
+/// What a draw sends where the host tessellates, without its triangles.
+#[must_use]
+pub fn host_draw(draw: &Draw) -> Transfer {
+    let models = if draw.models_sent { draw.models.len() as u64 } else { 0 };
+    Transfer { command: COMMAND, matrices: models * MATRIX, ..Transfer::default() }
 }
 
 /// Bytes of a control point: three floats, or four.
@@ -102,37 +124,78 @@ pub fn point_bytes(points: &Points) -> u64 {
     FLOAT * u64::from(points.source.components())
 }
 
-/// Resident points written to device memory as they arrive. Returns the bytes of their bursts.
+/// Resident points and attributes written to device memory as they arrive. Returns the bytes of
+/// their bursts.
 pub fn write_resident(command: &Command, config: &Config, counters: &mut Counters) -> u64 {
-    match command {
+    let (counter, bytes) = match command {
         Command::Points(points) if points.resident => {
-            let bytes = points.source.len() * point_bytes(points);
-            counters.add(Counter::MemoryWrittenControlPoints, bytes);
-            burst(bytes, config, counters)
+            (Counter::MemoryWrittenControlPoints, points.source.len() * point_bytes(points))
         }
-        _ => 0,
+        Command::Attributes(Attributes { table, resident: true, .. }) => {
+            (Counter::MemoryWrittenAttributes, table.corners() * table.corner_bytes())
+        }
+        _ => return 0,
+    };
+    let mut write = Bursts::default();
+    write.next(0, bytes, &config.memory);
+    counters.add(counter, bytes);
+    write.count(&config.memory, counters)
+}
+
+/// Accesses to device memory, one after another: one that begins where the one before ended goes on
+/// in its burst.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bursts {
+    end: Option<u64>,
+    bytes: u64,
+    bursts: u64,
+}
+
+impl Bursts {
+    /// The next access. Returns the bursts that start in it.
+    pub fn next(&mut self, address: u64, bytes: u64, memory: &Memory) -> u64 {
+        let burst = u64::from(memory.burst);
+        let end = address + bytes;
+        let from = match self.end {
+            Some(before) if before == address => before.div_ceil(burst),
+            _ => address / burst,
+        };
+        self.end = Some(end);
+        let bursts = if bytes == 0 { 0 } else { end.div_ceil(burst).saturating_sub(from) };
+        self.bytes += bytes;
+        self.bursts += bursts;
+        bursts
+    }
+
+    /// Bytes asked for.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Adds the bursts to the counters. Returns their bytes.
+    pub fn count(&self, memory: &Memory, counters: &mut Counters) -> u64 {
+        let moved = self.bursts * u64::from(memory.burst);
+        counters.add(Counter::MemoryBursts, self.bursts);
+        counters.add(Counter::MemoryWasted, moved - self.bytes);
+        moved
     }
 }
 
-/// Resident points read by one instance of a draw, `count` in a row.
-pub fn read_resident(points: &Points, count: u64, config: &Config, counters: &mut Counters) {
-    if points.resident {
-        let bytes = count * point_bytes(points);
-        counters.add(Counter::MemoryReadControlPoints, bytes);
-        burst(bytes, config, counters);
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_follows_goes_on_in_its_burst_and_what_jumps_does_not() {
+        let memory = Memory { burst: 32, ..Memory::default() };
+        let mut reads = Bursts::default();
+        let accesses =
+            [(0, 12), (12, 12), (24, 12), (36, 28), (64, 1), (12, 12), (12, 12), (30, 4)];
+        let bursts = accesses.map(|(address, bytes)| reads.next(address, bytes, &memory));
+        assert_eq!(bursts, [1, 0, 1, 0, 1, 1, 1, 2]);
+        let mut counters = Counters::default();
+        assert_eq!(reads.count(&memory, &mut counters), 7 * 32);
+        assert_eq!(counters.get(Counter::MemoryWasted), 7 * 32 - 93);
     }
-}
-
-/// Bursts that `bytes` in a row take, from the start of a burst.
-#[must_use]
-pub fn bursts(bytes: u64, memory: &Memory) -> u64 {
-    bytes.div_ceil(memory.burst.into())
-}
-
-fn burst(bytes: u64, config: &Config, counters: &mut Counters) -> u64 {
-    let bursts = bursts(bytes, &config.memory);
-    let moved = bursts * u64::from(config.memory.burst);
-    counters.add(Counter::MemoryBursts, bursts);
-    counters.add(Counter::MemoryWasted, moved - bytes);
-    moved
 }

@@ -85,8 +85,8 @@ mod tests {
             patch: 7,
             reversed: false,
             vertices: &vertices,
-            screen: &[],
             triangles: &[[0, 1, 2]],
+            ..PatchMesh::default()
         };
         write_patch(&mut text, 3, &frame(), &mesh).unwrap();
         assert_eq!(

@@ -121,8 +121,7 @@ mod tests {
         let vertices = [vertex(0, 0, 0), vertex(2, ONE, 0), vertex(4, HALF, ONE)];
         for patch in [5, 9] {
             let triangles = &[[0, 1, 2]];
-            let mesh =
-                PatchMesh { patch, reversed: false, vertices: &vertices, screen: &[], triangles };
+            let mesh = PatchMesh { patch, vertices: &vertices, triangles, ..PatchMesh::default() };
             ply.patch(&frame(), &mesh).unwrap();
         }
         ply.finish().unwrap();

@@ -218,8 +218,7 @@ mod tests {
         svg.frame(&frame());
         let screen = [at(0, 2560), at(2560, 2560), at(0, 0), Screen::default()];
         let triangles = &[[0, 1, 2], [2, 1, 3]];
-        let mesh =
-            PatchMesh { patch: 0, reversed: false, vertices: &[], screen: &screen, triangles };
+        let mesh = PatchMesh { screen: &screen, triangles, ..PatchMesh::default() };
         svg.patch(&frame(), &mesh).unwrap();
         svg.finish().unwrap();
         let text = std::fs::read_to_string(&path).unwrap();

@@ -8,9 +8,11 @@ use rtl_model::level::Criterion;
 use rtl_model::patch::Depth;
 use std::sync::Arc;
 
+use super::attributes::AttributeTable;
+use super::indices::Indices;
 use super::points::PointSource;
 
-pub use rtl_model::assemble::Primitive;
+pub use rtl_model::assemble::{FanEncoding, Primitive};
 
 /// One command.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,8 @@ pub enum Command {
     Frame(Frame),
     /// Defines or replaces the points of an id.
     Points(Points),
+    /// Defines or replaces the attributes of an id.
+    Attributes(Attributes),
     /// Sets the tessellation state of the draws that follow.
     Tessellation(Tessellation),
     /// Draws surfaces.
@@ -76,6 +80,17 @@ pub struct Points {
     pub resident: bool,
 }
 
+/// Attributes under an id: values at the corners of patches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attributes {
+    /// The id that draws name; those of points are others.
+    pub id: u32,
+    /// What a corner has and its values. Cheap to clone.
+    pub table: Arc<AttributeTable>,
+    /// Crosses the link once; every draw reads it from device memory.
+    pub resident: bool,
+}
+
 /// Tessellation state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tessellation {
@@ -108,6 +123,10 @@ pub struct Draw {
     pub points: u32,
     /// Index of the first point used.
     pub first: u64,
+    /// Which points and corners each patch has, where the primitive is indexed, and only there.
+    pub indices: Option<Arc<Indices>>,
+    /// The id of the attributes of its corners, from the first one on.
+    pub attributes: Option<u32>,
     /// Object to world, one for each instance; one identity when the trace gives none.
     pub models: Vec<[f32; 16]>,
     /// Whether `model` or `instances` was given, and so crosses the link.
@@ -127,6 +146,8 @@ impl Draw {
             primitive,
             points,
             first: 0,
+            indices: None,
+            attributes: None,
             models: vec![IDENTITY],
             models_sent: false,
             reversed: false,

@@ -1,14 +1,15 @@
-//! Draw: the text of a draw in, the draw out, checked against the frame and the points that came
-//! before.
+//! Draw: the text of a draw in, the draw out, checked against the frame, the points and the
+//! attributes that came before.
 
-use super::command::{Command, Draw, Primitive};
-use super::field::unsupported;
+use super::command::{Command, Draw, FanEncoding, Primitive};
 use super::field::{Object, choice, flag, integer, integer32, matrix};
+use super::indices::{Indices, indices};
 use super::json::{Found, Value};
-use super::state::State;
+use super::state::{State, ids};
+use std::sync::Arc;
 
 /// The most patches of one instance.
-const PATCHES_MAX: u64 = 1 << 24;
+pub(crate) const PATCHES_MAX: u64 = 1 << 24;
 
 const FIELDS: &[&str] = &[
     "primitive",
@@ -17,104 +18,207 @@ const FIELDS: &[&str] = &[
     "count",
     "rows",
     "columns",
+    "encoding",
+    "indices",
+    "index_format",
+    "attributes",
+    "attribute_indices",
     "model",
     "instances",
     "front",
     "cull",
 ];
 
-/// Fields that the format knows and this version does not.
-const LATER: &[&str] = &["attributes", "encoding", "indices", "index_format", "attribute_indices"];
-
 #[derive(Clone, Copy)]
 enum Kind {
     Patches,
+    Strip,
+    Fan,
     Mesh,
-    Later,
+    IndexedMesh,
 }
 
 const KINDS: [(&str, Kind); 5] = [
     ("patches", Kind::Patches),
+    ("strip", Kind::Strip),
+    ("fan", Kind::Fan),
     ("mesh", Kind::Mesh),
-    ("strip", Kind::Later),
-    ("fan", Kind::Later),
-    ("indexed_mesh", Kind::Later),
+    ("indexed_mesh", Kind::IndexedMesh),
+];
+
+/// The fields that only some primitives have, and which those are.
+const OWN: [(&str, &[&str]); 7] = [
+    ("count", &["patches", "strip", "fan"]),
+    ("rows", &["mesh"]),
+    ("columns", &["mesh"]),
+    ("encoding", &["fan"]),
+    ("indices", &["indexed_mesh"]),
+    ("index_format", &["indexed_mesh"]),
+    ("attribute_indices", &["indexed_mesh"]),
 ];
 
 pub(crate) fn draw(value: Value<'_>, state: &State) -> Found<Command> {
-    let object = Object::read_with(value, FIELDS, LATER)?;
-    refuse_later(&object)?;
+    let object = Object::read(value, FIELDS)?;
     if !state.in_frame {
         return Err(value.refuse("found a draw before any frame, expected a frame first"));
     }
-    let primitive = primitive(&object)?;
+    let (primitive, indices) = primitive(&object)?;
     let points = integer32(object.require("points", "the id of points")?, 0, u32::MAX)?;
     let first = object.get("first").map_or(Ok(0), |v| integer(v, 0, u64::MAX))?;
-    check_points(&object, primitive, points, first, state)?;
+    let indices = indices.as_ref();
+    let used = Used::by(primitive.points(), indices.map(|i| i.points.as_flattened()));
+    check_points(&object, primitive, &used, points, first, state)?;
+    let attributes = attributes(&object, primitive, indices, state)?;
     let (models, models_sent) = models(&object)?;
     let front = object.get("front").map(|v| choice(v, &[("normal", false), ("reversed", true)]));
     let cull = object.get("cull").map_or(Ok(true), flag)?;
     let reversed = front.transpose()?.unwrap_or(false);
-    Ok(Command::Draw(Draw { primitive, points, first, models, models_sent, reversed, cull }))
+    let indices = indices.cloned().map(Arc::new);
+    Ok(Command::Draw(Draw {
+        primitive,
+        points,
+        first,
+        indices,
+        attributes,
+        models,
+        models_sent,
+        reversed,
+        cull,
+    }))
 }
 
-/// Says of a draw that a later version can do that it is that.
-fn refuse_later(object: &Object<'_>) -> Found<()> {
-    match object.get("primitive") {
-        Some(value) if matches!(choice(value, &KINDS), Ok(Kind::Later)) => Err(unsupported(value)),
-        _ => match LATER.iter().find_map(|name| object.key(name)) {
-            Some(key) => Err(unsupported(key)),
-            None => Ok(()),
-        },
+fn primitive(object: &Object<'_>) -> Found<(Primitive, Option<Indices>)> {
+    let expected = "\"patches\", \"strip\", \"fan\", \"mesh\" or \"indexed_mesh\"";
+    let named = object.require("primitive", expected)?;
+    let kind = choice(named, &KINDS)?;
+    let name = named.string(expected)?;
+    for (field, owners) in OWN {
+        if !owners.contains(&&*name) {
+            object.forbid(field, &format!("which the primitive \"{name}\" has not"))?;
+        }
     }
+    let size = |name| integer(object.require(name, "how many patches")?, 1, PATCHES_MAX);
+    Ok((
+        match kind {
+            Kind::Patches => Primitive::Patches { count: size("count")? },
+            Kind::Strip => Primitive::Strip { count: size("count")? },
+            Kind::Fan => {
+                let encodings = [("compact", FanEncoding::Compact), ("full", FanEncoding::Full)];
+                let encoding = object.get("encoding").map(|v| choice(v, &encodings)).transpose()?;
+                Primitive::Fan { count: size("count")?, encoding: encoding.unwrap_or_default() }
+            }
+            Kind::Mesh => {
+                let (rows, columns) = (size("rows")?, size("columns")?);
+                if rows * columns > PATCHES_MAX {
+                    let message = format!(
+                        "found {rows} rows of {columns} patches, expected at most {PATCHES_MAX} \
+                         patches a draw"
+                    );
+                    return Err(object.require("columns", "")?.refuse(message));
+                }
+                // Both are at most 2^24.
+                Primitive::Mesh { rows: rows as u32, columns: columns as u32 }
+            }
+            Kind::IndexedMesh => {
+                let indices = indices(object, PATCHES_MAX)?;
+                let count = indices.points.len() as u64;
+                return Ok((Primitive::Indexed { count }, Some(indices)));
+            }
+        },
+        None,
+    ))
 }
 
-fn primitive(object: &Object<'_>) -> Found<Primitive> {
-    let size = |name| integer(object.require(name, "how many patches")?, 1, PATCHES_MAX);
-    let kind = object.require("primitive", "\"patches\" or \"mesh\"")?;
-    match choice(kind, &KINDS)? {
-        Kind::Patches => {
-            object.forbid("rows", "which the primitive \"patches\" has not")?;
-            object.forbid("columns", "which the primitive \"patches\" has not")?;
-            Ok(Primitive::Patches { count: size("count")? })
+/// Entries of a buffer that a draw uses.
+enum Used {
+    /// So many from the first one on.
+    Count(u64),
+    /// Up to this index, which an indexed mesh names.
+    UpTo(u32),
+}
+
+impl Used {
+    /// By the primitive's own count, else by the greatest index.
+    fn by(count: Option<u64>, indices: Option<&[u32]>) -> Self {
+        match (count, indices.and_then(|list| list.iter().max())) {
+            (Some(count), _) => Self::Count(count),
+            (None, most) => Self::UpTo(most.copied().unwrap_or(0)),
         }
-        Kind::Mesh => {
-            object.forbid("count", "which the primitive \"mesh\" has not")?;
-            let (rows, columns) = (size("rows")?, size("columns")?);
-            if rows * columns > PATCHES_MAX {
-                let message = format!(
-                    "found {rows} rows of {columns} patches, expected at most {PATCHES_MAX} \
-                     patches a draw"
-                );
-                return Err(object.require("columns", "")?.refuse(message));
-            }
-            // Both are at most 2^24.
-            Ok(Primitive::Mesh { rows: rows as u32, columns: columns as u32 })
+    }
+
+    fn len(&self) -> u64 {
+        match *self {
+            Self::Count(count) => count,
+            Self::UpTo(most) => u64::from(most) + 1,
         }
-        Kind::Later => Err(unsupported(kind)),
+    }
+
+    /// Why so many, for a message.
+    fn reason(&self, patches: u64) -> String {
+        match self {
+            Self::Count(_) => format!("for {patches} patches"),
+            Self::UpTo(most) => format!("for the index {most}"),
+        }
     }
 }
 
 fn check_points(
     object: &Object<'_>,
     primitive: Primitive,
+    used: &Used,
     id: u32,
     first: u64,
     state: &State,
 ) -> Found<()> {
     let value = object.require("points", "the id of points")?;
     let Some(&held) = state.points.get(&id) else {
-        return Err(value.expected(format_args!("the id of points ({})", state.ids())));
+        return Err(value.expected(format_args!("the id of points ({})", ids(&state.points))));
     };
-    let used = primitive.points();
-    if first.checked_add(used).is_some_and(|end| end <= held) {
+    let needed = used.len();
+    if first.checked_add(needed).is_some_and(|end| end <= held) {
         return Ok(());
     }
     let from = if first == 0 { String::new() } else { format!(" from point {first} on") };
+    let reason = used.reason(primitive.patches());
     Err(value.refuse(format!(
-        "found {held} points under id {id}, expected at least {used}{from} for {} patches",
-        primitive.patches()
+        "found {held} points under id {id}, expected at least {needed}{from} {reason}"
     )))
+}
+
+/// The id of the draw's attributes, of which it has enough.
+fn attributes(
+    object: &Object<'_>,
+    primitive: Primitive,
+    indices: Option<&Indices>,
+    state: &State,
+) -> Found<Option<u32>> {
+    let Some(value) = object.get("attributes") else {
+        object.forbid("attribute_indices", "which go with `attributes`")?;
+        return Ok(None);
+    };
+    let id = integer32(value, 0, u32::MAX)?;
+    let Some(&held) = state.corners.get(&id) else {
+        let known = ids(&state.corners);
+        return Err(value.expected(format_args!("the id of attributes ({known})")));
+    };
+    let patches = primitive.patches();
+    if let Some(indices) = indices {
+        let list = object.require("attribute_indices", "four corners a patch")?;
+        let found = indices.corners.len() as u64;
+        if found != patches {
+            let message = format!("found corners of {found} patches, expected those of {patches}");
+            return Err(list.refuse(message));
+        }
+    }
+    let used = Used::by(primitive.corners(), indices.map(|i| i.corners.as_flattened()));
+    let needed = used.len();
+    if needed > held {
+        let reason = used.reason(patches);
+        return Err(value.refuse(format!(
+            "found {held} corners under id {id}, expected at least {needed} {reason}"
+        )));
+    }
+    Ok(Some(id))
 }
 
 /// The models, and whether the trace gave them.

@@ -14,19 +14,10 @@ pub(crate) struct Object<'a> {
 impl<'a> Object<'a> {
     /// Reads an object that may have the fields `known` and no others.
     pub(crate) fn read(whole: Value<'a>, known: &'static [&'static str]) -> Found<Self> {
-        Self::read_with(whole, known, &[])
-    }
-
-    /// Reads an object that may also have the fields `later`, which messages do not list.
-    pub(crate) fn read_with(
-        whole: Value<'a>,
-        known: &'static [&'static str],
-        later: &'static [&'static str],
-    ) -> Found<Self> {
         let mut found: Vec<(&'static str, Value<'a>, Value<'a>)> = Vec::new();
         whole.entries("an object", |key, value| {
             let text = key.string("a name")?;
-            let Some(name) = known.iter().chain(later).find(|k| **k == text) else {
+            let Some(name) = known.iter().find(|k| **k == text) else {
                 return Err(unknown("field", key, &text, known));
             };
             if found.iter().any(|(n, ..)| n == name) {
@@ -176,10 +167,4 @@ pub(crate) fn invertible(value: Value<'_>) -> Found<[f32; 16]> {
         return Err(value.expected("a matrix that has an inverse; this one is singular"));
     }
     Ok(matrix)
-}
-
-/// The fault of a field that a later version may have.
-pub(crate) fn unsupported(key: Value<'_>) -> Fault {
-    let found = snippet(key.text);
-    key.refuse(format!("found {found}, which is not supported by this version of tessim"))
 }

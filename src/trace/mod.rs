@@ -1,7 +1,9 @@
 //! The command stream: types, the text form, importers, scenes.
 
+pub mod attributes;
 pub mod command;
 pub mod import;
+pub mod indices;
 pub mod points;
 pub mod read;
 pub mod scene;

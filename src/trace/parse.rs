@@ -4,12 +4,12 @@
 //! Numbers that a unit compares with others are quantised here, once: pixels to UQ16.16, levels to
 //! UQ8.16, both to nearest-even.
 
-use super::command::{Command, Frame, Header, Points, Range, Tessellation};
-use super::draw;
+use super::command::{Attributes, Command, Frame, Header, Points, Range, Tessellation};
 use super::field::{Object, choice, flag, integer, integer32, invertible, real32, real64, unknown};
 use super::json::{Found, Value};
 use super::points::{DataFile, Layout, PointFile, PointSource};
 use super::state::State;
+use super::{attributes, draw};
 use rtl_model::level::Criterion;
 use rtl_model::patch::{Depth, Level};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ const VIEWPORT_MAX: u32 = 16384;
 const RANGE_LOG2_MAX: i32 = 64;
 
 const HEADER: &[&str] = &["tessim", "title", "source", "licence"];
-const COMMANDS: &[&str] = &["frame", "points", "tessellation", "draw", "end"];
+const COMMANDS: &[&str] = &["frame", "points", "attributes", "tessellation", "draw", "end"];
 
 /// The command of the first line, which must be the header.
 pub(crate) fn first(line: &str) -> Found<Command> {
@@ -54,7 +54,7 @@ pub(crate) fn command(line: &str, state: &mut State) -> Found<Command> {
         "tessellation" => tessellation(value),
         "draw" => draw::draw(value, state),
         "end" => Object::read(value, &[]).map(|_| Command::End),
-        "attributes" => Err(key.refuse("`attributes` is not supported by this version of tessim")),
+        "attributes" => attributes(value, state),
         header if HEADER.contains(&header) => {
             Err(key.expected("a command; the header stands on the first line and only there"))
         }
@@ -142,8 +142,9 @@ fn points(value: Value<'_>, state: &mut State) -> Found<Command> {
         object.forbid("layout", "which only points in a `file` have")?;
         object.forbid("count", "which only points in a `file` have")?;
     }
-    state.points.insert(id, source.len());
-    Ok(Command::Points(Points { id, source: Arc::new(source), resident }))
+    let command = Command::Points(Points { id, source: Arc::new(source), resident });
+    state.define(&command);
+    Ok(command)
 }
 
 fn inline<const N: usize>(value: Value<'_>) -> Found<Vec<[f32; N]>> {
@@ -179,6 +180,13 @@ fn point_file(name: Value<'_>, object: &Object<'_>, state: &mut State) -> Found<
     let data = DataFile::find(&state.folder, &text).map_err(refuse)?;
     state.files.insert(data.name.clone(), data.clone());
     PointFile::open(data, layout, count).map_err(refuse)
+}
+
+fn attributes(value: Value<'_>, state: &mut State) -> Found<Command> {
+    let (id, table, resident) = attributes::attributes(value)?;
+    let command = Command::Attributes(Attributes { id, table: Arc::new(table), resident });
+    state.define(&command);
+    Ok(command)
 }
 
 /// The state that `value` sets: all of it, with the defaults for what it leaves out.

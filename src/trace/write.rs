@@ -3,7 +3,9 @@
 //! Numbers are the shortest decimals that read back as the same bits. The writer checks nothing:
 //! the reader does.
 
-use super::command::{Command, Draw, Frame, Header, Points, Primitive, Range, Tessellation};
+use super::attributes::Attribute;
+use super::command::{Attributes, Command, Draw, FanEncoding, Frame, Header};
+use super::command::{Points, Primitive, Range, Tessellation};
 use super::points::PointSource;
 use rtl_model::level::Criterion;
 use rtl_model::patch::Depth;
@@ -33,6 +35,7 @@ impl<W: Write> Writer<W> {
             Command::Header(c) => header(line, c),
             Command::Frame(c) => frame(line, c),
             Command::Points(c) => points(line, c),
+            Command::Attributes(c) => attributes(line, c),
             Command::Tessellation(c) => tessellation(line, c),
             Command::Draw(c) => draw(line, c),
             Command::End => line.push_str(r#"{"end":{}}"#),
@@ -89,14 +92,27 @@ fn points(line: &mut String, points: &Points) {
         line.push_str(r#","resident":true"#);
     }
     match &*points.source {
-        PointSource::Xyz(list) => rows(line, "xyz", list),
-        PointSource::Xyzw(list) => rows(line, "xyzw", list),
+        PointSource::Xyz(list) => rows(line, "xyz", list.iter().map(<[f32; 3]>::as_slice)),
+        PointSource::Xyzw(list) => rows(line, "xyzw", list.iter().map(<[f32; 4]>::as_slice)),
         PointSource::File(file) => {
             let (name, layout) = (quoted(&file.data().name), file.layout().name());
             let count = points.source.len();
             line.push_str(&format!(r#","file":{name},"layout":"{layout}","count":{count}"#));
         }
     }
+    line.push_str("}}");
+}
+
+fn attributes(line: &mut String, attributes: &Attributes) {
+    line.push_str(&format!(r#"{{"attributes":{{"id":{}"#, attributes.id));
+    if attributes.resident {
+        line.push_str(r#","resident":true"#);
+    }
+    let attribute =
+        |a: &Attribute| format!(r#"{{"name":"{}","format":"{}"}}"#, a.name, a.format.name());
+    let layout: Vec<String> = attributes.table.layout.iter().map(attribute).collect();
+    line.push_str(&format!(r#","layout":[{}]"#, layout.join(",")));
+    rows(line, "values", attributes.table.values.chunks_exact(attributes.table.components()));
     line.push_str("}}");
 }
 
@@ -121,12 +137,33 @@ fn draw(line: &mut String, draw: &Draw) {
         Primitive::Patches { count } => {
             format!(r#""patches","points":{},"count":{count}"#, draw.points)
         }
+        Primitive::Strip { count } => {
+            format!(r#""strip","points":{},"count":{count}"#, draw.points)
+        }
+        Primitive::Fan { count, encoding } => {
+            let encoding = match encoding {
+                FanEncoding::Compact => "",
+                FanEncoding::Full => r#","encoding":"full""#,
+            };
+            format!(r#""fan","points":{},"count":{count}{encoding}"#, draw.points)
+        }
         Primitive::Mesh { rows, columns } => {
             format!(r#""mesh","points":{},"rows":{rows},"columns":{columns}"#, draw.points)
         }
+        Primitive::Indexed { .. } => format!(r#""indexed_mesh","points":{}"#, draw.points),
     });
     if draw.first != 0 {
         line.push_str(&format!(r#","first":{}"#, draw.first));
+    }
+    if let Some(indices) = &draw.indices {
+        index_rows(line, "indices", &indices.points);
+        line.push_str(&format!(r#","index_format":"{}""#, indices.format.name()));
+        if !indices.corners.is_empty() {
+            index_rows(line, "attribute_indices", &indices.corners);
+        }
+    }
+    if let Some(attributes) = draw.attributes {
+        line.push_str(&format!(r#","attributes":{attributes}"#));
     }
     match &draw.models[..] {
         _ if !draw.models_sent => {}
@@ -134,7 +171,7 @@ fn draw(line: &mut String, draw: &Draw) {
             line.push_str(r#","model":"#);
             numbers(line, model);
         }
-        models => rows(line, "instances", models),
+        models => rows(line, "instances", models.iter().map(<[f32; 16]>::as_slice)),
     }
     if draw.reversed {
         line.push_str(r#","front":"reversed""#);
@@ -149,9 +186,15 @@ fn quoted(text: &str) -> String {
     serde_json::to_string(text).expect("a string is JSON")
 }
 
-fn rows<const N: usize>(line: &mut String, name: &str, rows: &[[f32; N]]) {
+fn index_rows<const N: usize>(line: &mut String, name: &str, rows: &[[u32; N]]) {
+    let text = serde_json::to_string(&rows.iter().map(<[u32; N]>::as_slice).collect::<Vec<_>>());
+    let text = text.expect("integers are JSON");
+    line.push_str(&format!(r#","{name}":{text}"#));
+}
+
+fn rows<'a>(line: &mut String, name: &str, rows: impl Iterator<Item = &'a [f32]>) {
     line.push_str(&format!(r#","{name}":["#));
-    for (i, row) in rows.iter().enumerate() {
+    for (i, row) in rows.enumerate() {
         if i > 0 {
             line.push(',');
         }

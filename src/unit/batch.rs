@@ -4,6 +4,7 @@
 //! A batch is bounded, so memory does not grow with the trace; meshes are kept only where the sink
 //! wants them, a wave of patches at a time.
 
+use super::attributes::Corners;
 use super::chain::Work as Done;
 use super::clock::{Clock, Fetch};
 use super::frame::FrameState;
@@ -12,6 +13,7 @@ use crate::config::Config;
 use crate::error::Result;
 use crate::shader::control_point;
 use crate::sink::{PatchMesh, Sink};
+use crate::trace::attributes::AttributeTable;
 use glam::Mat4;
 use rayon::prelude::*;
 use rtl_model::counter::{Counter, Counters};
@@ -21,6 +23,7 @@ use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
 use rtl_model::patch::{Patch, Triangle, Vertex};
 use rtl_model::port::{self, Quantised};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait.
 pub(super) const PATCHES_MAX: usize = 4096;
@@ -44,6 +47,8 @@ struct Pending {
     pub(super) id: u32,
     /// Its sixteen points, as indices into the batch.
     pub(super) indices: [u32; 16],
+    /// Its corners in the draw's attributes.
+    corners: [u32; 4],
     /// Its draw, as an index into the batch.
     pub(super) draw: u32,
     /// What brings its points.
@@ -60,7 +65,7 @@ struct Sent {
 }
 
 /// What the patches of a draw share.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct DrawState {
     /// Number of the draw within the frame.
     pub(super) number: u32,
@@ -70,6 +75,10 @@ pub(super) struct DrawState {
     pub(super) reversed: bool,
     /// Tessellation state.
     pub(super) state: State,
+    /// Bytes of a vertex on the link, where the host tessellates.
+    pub(super) vertex_bytes: u64,
+    /// The attributes of its corners.
+    pub(super) attributes: Option<Arc<Corners>>,
 }
 
 /// Vertices and triangles that came of one draw.
@@ -130,17 +139,11 @@ impl Batch {
         self.draws.push(draw);
     }
 
-    /// Adds points under a matrix, of which the first `repeated` were received before. Returns the
-    /// index of the first.
-    pub(super) fn points(
-        &mut self,
-        clip_from_object: Mat4,
-        points: &[[f32; 4]],
-        repeated: usize,
-    ) -> u32 {
+    /// Adds points under a matrix, of which the first `repeated` were received before.
+    pub(super) fn points(&mut self, clip_from_object: Mat4, points: &[[f32; 4]], repeated: usize) {
         let first = self.points.len();
         self.points.extend_from_slice(points);
-        self.span(Span { clip_from_object, points: first..self.points.len(), repeated })
+        self.span(Span { clip_from_object, points: first..self.points.len(), repeated });
     }
 
     /// Adds the points of earlier spans again, under another matrix. Returns the index of the
@@ -154,11 +157,14 @@ impl Batch {
         first
     }
 
-    fn span(&mut self, span: Span) -> u32 {
-        let first = self.shaded;
+    fn span(&mut self, span: Span) {
         self.shaded += span.points.len();
         self.spans.push(span);
-        first as u32
+    }
+
+    /// The index that the next point will have.
+    pub(super) fn next_point(&self) -> u32 {
+        self.shaded as u32
     }
 
     /// Spans so far.
@@ -167,9 +173,9 @@ impl Batch {
     }
 
     /// Adds a patch of the draw that was added last.
-    pub(super) fn patch(&mut self, id: u32, indices: [u32; 16], fetch: Fetch) {
+    pub(super) fn patch(&mut self, id: u32, indices: [u32; 16], corners: [u32; 4], fetch: Fetch) {
         let draw = self.draws.len() as u32 - 1;
-        self.patches.push(Pending { id, indices, draw, fetch });
+        self.patches.push(Pending { id, indices, corners, draw, fetch });
     }
 
     /// Tessellates what waits and empties the batch. Returns vertices and triangles by draw.
@@ -265,7 +271,9 @@ impl Timing<'_> {
     fn patches(&mut self, done: &[Done]) {
         for &work in done {
             self.commands();
-            self.clock.patch(self.batch.patches[self.patches].fetch, work);
+            let patch = &self.batch.patches[self.patches];
+            let vertex_bytes = self.batch.draws[patch.draw as usize].vertex_bytes;
+            self.clock.patch(patch.fetch, work, vertex_bytes);
             self.patches += 1;
         }
     }
@@ -295,6 +303,7 @@ struct Pieces {
     vertices: Vec<Vertex>,
     screen: Vec<Screen>,
     triangles: Vec<Triangle>,
+    attributes: Vec<i64>,
     tallies: Vec<Tally>,
     done: Vec<Done>,
     counters: Counters,
@@ -307,6 +316,7 @@ struct Piece {
     vertices: usize,
     screen: usize,
     triangles: usize,
+    table: Option<Arc<AttributeTable>>,
 }
 
 impl Work<'_> {
@@ -357,8 +367,21 @@ impl Work<'_> {
             let draw = &self.batch.draws[pending.draw as usize];
             if pipeline.accept(&self.gather(pending, draw), &draw.state) {
                 pieces.tally(draw.number, pipeline);
+                let attributes = draw.attributes.as_deref();
+                if let Some(attributes) = attributes {
+                    attributes.count(self.config, pipeline);
+                }
                 if keep {
-                    pieces.keep(pending.id, draw.reversed, pipeline);
+                    pieces.keep(pending, draw, pipeline);
+                    let rounding = self.config.attributes.rounding;
+                    if let Some(attributes) = attributes {
+                        attributes.interpolate(
+                            pending.corners,
+                            &pipeline.vertices,
+                            rounding,
+                            &mut pieces.attributes,
+                        );
+                    }
                 }
             }
             pieces.done.push(pipeline.work);
@@ -389,28 +412,35 @@ impl Pieces {
         add(&mut self.tallies, tally);
     }
 
-    fn keep(&mut self, id: u32, reversed: bool, made: &Pipeline) {
+    fn keep(&mut self, pending: &Pending, draw: &DrawState, made: &Pipeline) {
         self.vertices.extend_from_slice(&made.vertices);
         self.screen.extend_from_slice(&made.screen);
         self.triangles.extend_from_slice(made.triangles());
         self.patches.push(Piece {
-            id,
-            reversed,
+            id: pending.id,
+            reversed: draw.reversed,
             vertices: self.vertices.len(),
             screen: self.screen.len(),
             triangles: self.triangles.len(),
+            table: draw.attributes.as_ref().map(|corners| corners.table.clone()),
         });
     }
 
     fn send(&self, sink: &mut dyn Sink) -> Result<()> {
         let (mut v, mut s, mut t) = (0, 0, 0);
+        let mut values = &self.attributes[..];
         for piece in &self.patches {
+            let components = piece.table.as_ref().map_or(0, |table| table.components());
+            let (attributes, later) = values.split_at(components * (piece.vertices - v));
+            values = later;
             sink.patch(&PatchMesh {
                 patch: piece.id,
                 reversed: piece.reversed,
                 vertices: &self.vertices[v..piece.vertices],
                 screen: &self.screen[s..piece.screen],
                 triangles: &self.triangles[t..piece.triangles],
+                layout: piece.table.as_ref().map_or(&[], |table| &table.layout),
+                attributes,
             })?;
             (v, s, t) = (piece.vertices, piece.screen, piece.triangles);
         }

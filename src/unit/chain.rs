@@ -84,6 +84,8 @@ pub(super) enum Token {
     Vertices(Parcel, u32),
     /// Memory to assemble: a control point; a patch's last one completes it.
     Point(Option<Work>),
+    /// Memory to assemble: a patch of which every control point is on chip already.
+    Whole(Work),
     /// Assemble to evaluate.
     Patch(Work),
     /// Evaluate to stitch.

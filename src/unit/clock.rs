@@ -208,8 +208,8 @@ impl Clock {
     }
 
     /// A patch of the command that was sent last, and what became of it: fetched by the unit, or
-    /// sent as vertices.
-    pub(super) fn patch(&mut self, fetch: Fetch, work: Work) {
+    /// sent as vertices of so many bytes.
+    pub(super) fn patch(&mut self, fetch: Fetch, work: Work, vertex_bytes: u64) {
         match self.config.unit {
             Unit::Hybrid => {
                 let Fetch { points, read } = fetch;
@@ -220,8 +220,7 @@ impl Clock {
                 let [vertices, triangles] = work.made();
                 self.draw[0] += vertices;
                 self.draw[1] += triangles;
-                let bytes = u64::from(self.config.triangles.vertex_bytes);
-                self.stream(vertices * bytes, vertices);
+                self.stream(vertices * vertex_bytes, vertices);
             }
         }
     }
@@ -230,7 +229,7 @@ impl Clock {
     /// wide they are.
     fn end_draw(&mut self) {
         let [vertices, triangles] = std::mem::take(&mut self.draw);
-        let all = Transfer::default().with_triangles(vertices, triangles, &self.config);
+        let all = Transfer::default().with_triangles(vertices, triangles, 0);
         self.stream(all.indices, 0);
     }
 

@@ -6,9 +6,11 @@
 //! say from a frame's counters what flowed and what it took.
 
 pub mod arithmetic;
+mod attributes;
 mod batch;
 mod chain;
 mod clock;
+mod draw;
 mod frame;
 mod hybrid;
 pub mod pattern;

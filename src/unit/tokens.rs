@@ -22,13 +22,15 @@ pub(super) fn of(unit: Unit, block: Block, counters: &Counters, sent: u64) -> [u
 }
 
 fn hybrid(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
+    // Patches without a control point of their own are tokens on their way to assemble.
+    let whole = get(C::AssembleWhole);
     let clipped = get(C::ClipIn) - get(C::ClipCulled);
     match block {
         Block::Link => [sent; 2],
-        Block::Memory => [sent, get(C::PortPoints)],
-        Block::Transform => [get(C::TransformInvocations); 2],
-        Block::Port => [get(C::PortPoints); 2],
-        Block::Assemble => [get(C::AssembleReceived), get(C::AssemblePatches)],
+        Block::Memory => [sent, get(C::PortPoints) + whole],
+        Block::Transform => [get(C::TransformInvocations) + whole; 2],
+        Block::Port => [get(C::PortPoints) + whole; 2],
+        Block::Assemble => [get(C::AssembleReceived) + whole, get(C::AssemblePatches)],
         Block::Clip => [get(C::ClipIn), clipped],
         Block::Backface => [get(C::BackfaceIn), get(C::BackfaceIn) - get(C::BackfaceCulled)],
         Block::Level | Block::Place => [get(C::LevelPatches); 2],

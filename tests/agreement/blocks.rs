@@ -3,7 +3,7 @@
 use super::ledger::Ledger;
 use super::table::{At, Quantity as Q, drifts, forward_surface};
 use ethnum::I256;
-use rtl_model::assemble::Primitive;
+use rtl_model::assemble::{FanEncoding, Primitive};
 use rtl_model::backface::{self, Verdict};
 use rtl_model::evaluate::{Evaluate, Settings};
 use rtl_model::number::{Format, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch};
@@ -37,6 +37,11 @@ pub(crate) fn assemble(ledger: &mut Ledger, primitive: Primitive) {
     let cells = match primitive {
         Primitive::Patches { count } => golden::assemble::patches(count as u32),
         Primitive::Mesh { rows, columns } => golden::assemble::mesh(rows, columns),
+        Primitive::Strip { count } => golden::assemble::strip(count as u32),
+        Primitive::Fan { count, encoding } => {
+            golden::assemble::fan(count as u32, encoding == FanEncoding::Compact)
+        }
+        Primitive::Indexed { .. } => unreachable!("its indices say"),
     };
     assert_eq!(cells.len() as u64, primitive.patches());
     for (n, cell) in (0..).zip(&cells) {

@@ -9,7 +9,7 @@ use super::random::{Kind, Random, patch};
 use super::table::{At, Quantity as Q};
 use super::walk;
 use glam::{DMat4, DVec3};
-use rtl_model::assemble::Primitive;
+use rtl_model::assemble::{FanEncoding, Primitive};
 use rtl_model::emit;
 use rtl_model::evaluate::Settings;
 use rtl_model::level::{Criterion, State};
@@ -27,7 +27,12 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
         port(ledger, &mut random);
     }
     for rows in 1..8 {
-        blocks::assemble(ledger, Primitive::Patches { count: rows.into() });
+        let count = rows.into();
+        blocks::assemble(ledger, Primitive::Patches { count });
+        blocks::assemble(ledger, Primitive::Strip { count });
+        for encoding in [FanEncoding::Compact, FanEncoding::Full] {
+            blocks::assemble(ledger, Primitive::Fan { count, encoding });
+        }
         for columns in 1..10 {
             blocks::assemble(ledger, Primitive::Mesh { rows, columns });
         }

@@ -73,7 +73,7 @@ fn instances(
     each: &mut impl FnMut(&Draw, &Drawn),
 ) {
     let mut objects = Vec::new();
-    let count = draw.primitive.points() as usize;
+    let count = draw.primitive.points().expect("not indexed") as usize;
     points.source.read(draw.first, count, &mut objects).expect("inline points");
     for model in &draw.models {
         let matrix = shader::concatenate(&frame.clip_from_world, &Mat4::from_cols_array(model));

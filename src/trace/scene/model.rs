@@ -49,13 +49,10 @@ impl Model {
         let source = Arc::new(PointSource::Xyz(points));
         writer.write(&Command::Points(Points { id: 0, source, resident: false }))?;
         writer.write(&Command::Draw(Draw {
-            primitive: Primitive::Patches { count },
-            points: 0,
-            first: 0,
             models: vec![if self.model.is_z_up() { IDENTITY } else { Y_UP }],
             models_sent: !self.model.is_z_up(),
             reversed: self.model.faces_inward(),
-            cull: true,
+            ..Draw::new(Primitive::Patches { count }, 0)
         }))?;
         writer.write(&Command::End)
     }

@@ -38,14 +38,12 @@ impl Teacups {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let cup = Newell::Teacup;
         let points = cup.points();
+        let count = points.len() as u64 / 16;
         let draw = Command::Draw(Draw {
-            primitive: Primitive::Patches { count: points.len() as u64 / 16 },
-            points: 0,
-            first: 0,
             models: (0..self.count).map(|i| self.model(i)).collect(),
             models_sent: true,
             reversed: cup.faces_inward(),
-            cull: true,
+            ..Draw::new(Primitive::Patches { count }, 0)
         });
         let mut writer = Writer::new(out);
         writer.write(&Command::Header(Header {

@@ -80,6 +80,9 @@ impl Block for Memory {
         for k in 0..count {
             out.emit(Token::Point(work.filter(|_| k + 1 == count)), points.offset(k));
         }
+        if let (0, Some(work)) = (count, work) {
+            out.emit(Token::Whole(work), points.offset(0));
+        }
         points.cost()
     }
 
@@ -97,7 +100,8 @@ impl Block for Points {
     type Token = Token;
 
     fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
-        one(token, self.0.cost(1), out)
+        let cost = if let Token::Whole(_) = token { self.0.idle() } else { self.0.cost(1) };
+        one(token, cost, out)
     }
 }
 
@@ -109,8 +113,11 @@ impl Block for Assemble {
     type Token = Token;
 
     fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
-        let Token::Point(work) = *token else { misled(token) };
-        let cost = self.0.cost(1);
+        let (work, cost) = match *token {
+            Token::Point(work) => (work, self.0.cost(1)),
+            Token::Whole(work) => (Some(work), self.0.idle()),
+            _ => misled(token),
+        };
         if let Some(work) = work {
             out.emit(Token::Patch(work), cost.latency);
         }

@@ -1,0 +1,421 @@
+//! Draw: a draw command in, its patches in the batch: block by block, each with what must be
+//! fetched for it.
+
+use super::attributes::{Corners, NO_CORNERS};
+use super::batch::DrawState;
+use super::clock::Fetch;
+use super::run::Run;
+use crate::config::{Config, Memory};
+use crate::error::{Error, Result};
+use crate::link::{self, Bursts};
+use crate::shader::control_point;
+use crate::trace::command::{Draw, Points, Primitive};
+use glam::Mat4;
+use rtl_model::assemble::Cache;
+use rtl_model::counter::{Counter, Counters};
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Bytes that the control-point shader writes: a vec4.
+const SHADED_POINT: u64 = 16;
+
+/// A draw, and what it names.
+struct Source<'a> {
+    draw: &'a Draw,
+    points: Points,
+    attributes: Option<Arc<Corners>>,
+}
+
+/// What one instance has fetched so far.
+struct Instance {
+    matrix: Mat4,
+    state: DrawState,
+    points: Bursts,
+    corners: Bursts,
+    /// Transformed points of an indexed mesh.
+    cache: Cache,
+    /// Points, corners and patches without any of their own that its blocks brought.
+    received: [u64; 3],
+}
+
+/// Patches of one instance that are drawn together.
+#[derive(Clone, Copy)]
+struct Block {
+    row: u64,
+    column: u64,
+    rows: u64,
+    columns: u64,
+}
+
+impl Block {
+    /// All patches of an instance; those of no mesh are a row.
+    fn whole(primitive: Primitive) -> Self {
+        let (rows, columns) = primitive.size();
+        Self { row: 0, column: 0, rows, columns }
+    }
+}
+
+/// Which control points a patch brings.
+#[derive(Clone, Copy)]
+enum Brought {
+    /// So many that follow those before.
+    Next(u64),
+    /// Those of which the bit is set.
+    Missed(u16),
+}
+
+impl Brought {
+    fn points(self) -> u64 {
+        match self {
+            Self::Next(points) => points,
+            Self::Missed(missed) => missed.count_ones().into(),
+        }
+    }
+}
+
+/// Where a block's points are in the batch.
+struct Placed {
+    /// The first one.
+    base: u32,
+    /// Of an indexed mesh: each patch's points counted from there, and a bit for each that the
+    /// cache lacked.
+    indexed: Vec<([u32; 16], u16)>,
+}
+
+impl Run<'_> {
+    /// Carries out a draw.
+    pub(super) fn draw(&mut self, draw: &Draw) -> Result<()> {
+        let frame = self.frame.expect("the reader refuses a draw before any frame");
+        let known = "the reader refuses unknown ids";
+        let points = self.points.get(&draw.points).expect(known).clone();
+        let attributes = draw.attributes.map(|id| self.attributes.get(&id).expect(known).clone());
+        let source = Source { draw, points, attributes };
+        self.begin_draw(&source)?;
+        let state = DrawState {
+            number: self.draws.len() as u32 - 1,
+            cull: draw.cull,
+            reversed: draw.reversed,
+            state: super::hybrid::state(&self.state, self.config),
+            vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
+            attributes: source.attributes.clone(),
+        };
+        // The spans of the instance before, while the batch holds all of it.
+        let mut whole: Option<(Range<usize>, Placed)> = None;
+        for model in &draw.models {
+            let model = Mat4::from_cols_array(model);
+            let mut instance = Instance {
+                matrix: control_point::concatenate(&frame.clip_from_world, &model),
+                state: state.clone(),
+                points: Bursts::default(),
+                corners: Bursts::default(),
+                cache: Cache::new(self.config.assemble.cache_entries),
+                received: [0; 3],
+            };
+            match whole.take() {
+                Some((spans, mut placed))
+                    if self.batch.room() as u64 >= draw.primitive.patches() =>
+                {
+                    self.batch.draw(state.clone());
+                    placed.base = self.batch.again(instance.matrix, spans.clone());
+                    self.patches(&source, &mut instance, Block::whole(draw.primitive), &placed);
+                    whole = Some((spans, placed));
+                }
+                _ => whole = self.instance(&source, &mut instance)?,
+            }
+            instance.count(&source, self.config, &mut self.counters);
+        }
+        Ok(())
+    }
+
+    /// What a draw counts whatever becomes of its patches.
+    fn begin_draw(&mut self, source: &Source<'_>) -> Result<()> {
+        let Source { draw, attributes, .. } = source;
+        let primitive = draw.primitive;
+        let patches = primitive.patches() * draw.models.len() as u64;
+        if self.patches + patches > u64::from(u32::MAX) {
+            let count = self.patches + patches;
+            let most = u32::MAX;
+            return Err(Error::Usage(format!(
+                "a frame of {count} patches: expected at most {most}"
+            )));
+        }
+        let counters = &mut self.counters;
+        counters.add(Counter::TraceDraws, 1);
+        counters.add(Counter::TracePatches, patches);
+        counters.add(Counter::AssemblePatches, patches);
+        counters.add(Counter::AssembleEdgePeak, primitive.edge_entries_peak());
+        counters.add(Counter::AssembleEdgeLifetime, primitive.edge_lifetime_peak());
+        if attributes.is_some() {
+            counters.add(Counter::AssembleCornerPeak, primitive.corner_entries_peak());
+        }
+        let transfer = link::host_draw(draw);
+        self.draws.push((transfer, vertex_bytes(attributes.as_deref(), self.config)));
+        self.send_as_host(transfer)
+    }
+
+    /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row. Returns
+    /// its spans, if one block took it all.
+    fn instance(
+        &mut self,
+        source: &Source<'_>,
+        instance: &mut Instance,
+    ) -> Result<Option<(Range<usize>, Placed)>> {
+        let Block { rows, columns, .. } = Block::whole(source.draw.primitive);
+        let (mut row, mut column) = (0, 0);
+        let mut whole = None;
+        while row < rows {
+            if self.batch.room() == 0 {
+                self.flush()?;
+            }
+            let room = self.batch.room() as u64;
+            let block = if column > 0 || columns > room {
+                Block { row, column, rows: 1, columns: room.min(columns - column) }
+            } else {
+                Block { row, column, rows: (room / columns).min(rows - row), columns }
+            };
+            let first = self.batch.spans();
+            self.batch.draw(instance.state.clone());
+            let placed = self.place(source, instance, block)?;
+            self.patches(source, instance, block, &placed);
+            whole = (block.rows * block.columns == rows * columns)
+                .then(|| (first..self.batch.spans(), placed));
+            column += block.columns;
+            if column == columns {
+                (row, column) = (row + block.rows, 0);
+            }
+        }
+        Ok(whole)
+    }
+
+    /// Puts the points of a block into the batch. Those that the block before brought are there
+    /// again, and are not counted.
+    fn place(
+        &mut self,
+        source: &Source<'_>,
+        instance: &mut Instance,
+        block: Block,
+    ) -> Result<Placed> {
+        let Source { draw, points, .. } = source;
+        let Block { row, column, rows, columns } = block;
+        let base = self.batch.next_point();
+        let mut run = |first: u64, count: u64, repeated: u64| -> Result<()> {
+            points.source.read(draw.first + first, count as usize, &mut self.scratch)?;
+            self.batch.points(instance.matrix, &self.scratch, repeated as usize);
+            Ok(())
+        };
+        let later = u64::from(column > 0);
+        match draw.primitive {
+            Primitive::Patches { .. } => run(16 * column, 16 * columns, 0)?,
+            Primitive::Strip { .. } => run(12 * column, 4 * (3 * columns + 1), 4 * later)?,
+            Primitive::Fan { encoding, .. } => {
+                // The centre, the radial curve that the patch before ended with, the patches'.
+                let of = |count| Primitive::Fan { count, encoding }.points().expect("a fan's");
+                run(0, 1, later)?;
+                run(of(column) - 3, of(columns) - 1, 3 * later)?;
+            }
+            Primitive::Mesh { columns: across, .. } => {
+                let stride = 3 * u64::from(across) + 1;
+                for line in 3 * row..=3 * (row + rows) {
+                    // A block's first line and column came with the block below and to the left.
+                    let seen_line = line == 3 * row && row > 0;
+                    let width = 3 * columns + 1;
+                    let repeated = if seen_line { width } else { later };
+                    run(line * stride + 3 * column, width, repeated)?;
+                }
+            }
+            Primitive::Indexed { .. } => {
+                let indices = draw.indices.as_deref().expect("an indexed mesh has indices");
+                let rows = &indices.points[column as usize..(column + columns) as usize];
+                let indexed = self.gather(source, rows, instance)?;
+                return Ok(Placed { base, indexed });
+            }
+        }
+        Ok(Placed { base, indexed: Vec::new() })
+    }
+
+    /// The points of some patches of an indexed mesh: those that the cache lacks, and, without
+    /// being counted, those that it has from an earlier block.
+    fn gather(
+        &mut self,
+        source: &Source<'_>,
+        rows: &[[u32; 16]],
+        instance: &mut Instance,
+    ) -> Result<Vec<([u32; 16], u16)>> {
+        let Source { draw, points, .. } = source;
+        let base = self.batch.next_point();
+        let mut placed: HashMap<u32, u32> = HashMap::new();
+        let mut gathered = Vec::with_capacity(rows.len());
+        for row in rows {
+            let (mut missed, mut fetched, mut held) = (0_u16, Vec::new(), Vec::new());
+            for (k, index) in row.iter().enumerate() {
+                if !instance.cache.fetch(*index) {
+                    missed |= 1 << k;
+                    fetched.push(*index);
+                } else if ![&fetched, &held].iter().any(|list| list.contains(index))
+                    && !placed.contains_key(index)
+                {
+                    held.push(*index);
+                }
+            }
+            for (list, repeated) in [(&fetched, 0), (&held, held.len())] {
+                let mut found = Vec::with_capacity(list.len());
+                for &index in list {
+                    points.source.read(draw.first + u64::from(index), 1, &mut self.scratch)?;
+                    found.push(self.scratch[0]);
+                }
+                let first = self.batch.next_point() - base;
+                placed.extend(list.iter().zip(first..).map(|(&index, at)| (index, at)));
+                if !list.is_empty() {
+                    self.batch.points(instance.matrix, &found, repeated);
+                }
+            }
+            gathered.push((row.map(|index| placed[&index]), missed));
+        }
+        Ok(gathered)
+    }
+
+    /// The patches of a block whose points stand in the batch.
+    fn patches(
+        &mut self,
+        source: &Source<'_>,
+        instance: &mut Instance,
+        block: Block,
+        placed: &Placed,
+    ) {
+        let primitive = source.draw.primitive;
+        let Block { row, column, rows, columns } = block;
+        let local = match primitive {
+            Primitive::Patches { .. } => Primitive::Patches { count: columns },
+            Primitive::Strip { .. } => Primitive::Strip { count: columns },
+            Primitive::Fan { encoding, .. } => Primitive::Fan { count: columns, encoding },
+            Primitive::Mesh { .. } => {
+                Primitive::Mesh { rows: rows as u32, columns: columns as u32 }
+            }
+            Primitive::Indexed { .. } => Primitive::Indexed { count: columns },
+        };
+        let across = primitive.size().1;
+        for n in 0..local.patches() {
+            let number = (row + n / columns) * across + column + n % columns;
+            let (indices, brought) = match placed.indexed.get(n as usize) {
+                Some(&(indices, missed)) => (indices, Brought::Missed(missed)),
+                None => {
+                    let indices = local.indices(n).map(|i| i as u32);
+                    (indices, Brought::Next(primitive.received(number)))
+                }
+            };
+            let corners = source.corners(number);
+            let fetch = instance.fetch(source, number, brought, self.config);
+            let indices = indices.map(|i| placed.base + i);
+            self.batch.patch(self.patches as u32, indices, corners, fetch);
+            self.patches += 1;
+        }
+    }
+}
+
+impl Source<'_> {
+    /// The corners of patch `number`, where it has attributes.
+    fn corners(&self, number: u64) -> [u32; 4] {
+        match (&self.attributes, &self.draw.indices) {
+            (None, _) => NO_CORNERS,
+            (_, Some(indices)) => indices.corners[number as usize],
+            // A reader has checked that there are so many, and they are in memory.
+            _ => self.draw.primitive.corner_indices(number).map(|corner| corner as u32),
+        }
+    }
+}
+
+impl Instance {
+    /// What patch `number` brings.
+    fn fetch(
+        &mut self,
+        source: &Source<'_>,
+        number: u64,
+        brought: Brought,
+        config: &Config,
+    ) -> Fetch {
+        let points = brought.points();
+        let bursts = self.points(source, number, brought, config)
+            + self.corners(source, number, &config.memory);
+        self.received[0] += points;
+        self.received[2] += u64::from(points == 0);
+        let read = u32::try_from(bursts * u64::from(config.memory.burst));
+        Fetch { points: points as u8, read: read.expect("a patch's bursts are few") }
+    }
+
+    /// Bursts that bring the patch's control points.
+    fn points(
+        &mut self,
+        source: &Source<'_>,
+        number: u64,
+        brought: Brought,
+        config: &Config,
+    ) -> u64 {
+        if !source.points.resident {
+            return 0;
+        }
+        let (bytes, memory) = (link::point_bytes(&source.points), &config.memory);
+        match (brought, &source.draw.indices) {
+            (Brought::Missed(missed), Some(indices)) => {
+                let row = indices.points[number as usize].iter().enumerate();
+                let missed = row.filter(|(k, _)| missed >> k & 1 == 1);
+                missed.map(|(_, &i)| self.points.next(u64::from(i) * bytes, bytes, memory)).sum()
+            }
+            _ => self.points.next(self.points.bytes(), brought.points() * bytes, memory),
+        }
+    }
+
+    /// Bursts that bring the attributes of its corners.
+    fn corners(&mut self, source: &Source<'_>, number: u64, memory: &Memory) -> u64 {
+        let Some(Corners { table, resident, .. }) = source.attributes.as_deref() else { return 0 };
+        let bytes = table.corner_bytes();
+        let indexed = source.draw.indices.is_some();
+        let received = if indexed { 4 } else { source.draw.primitive.corners_received(number) };
+        self.received[1] += received;
+        match (resident, indexed) {
+            (false, _) => 0,
+            (true, false) => self.corners.next(self.corners.bytes(), received * bytes, memory),
+            (true, true) => {
+                let corners = source.corners(number);
+                corners.map(|c| self.corners.next(u64::from(c) * bytes, bytes, memory)).iter().sum()
+            }
+        }
+    }
+
+    /// What the instance brought.
+    fn count(&self, source: &Source<'_>, config: &Config, counters: &mut Counters) {
+        let Source { draw, points, attributes } = source;
+        let patches = draw.primitive.patches();
+        let [received, corners, whole] = self.received;
+        counters.add(Counter::TransformInvocations, received);
+        counters.add(Counter::TransformBytesIn, received * link::point_bytes(points));
+        counters.add(Counter::TransformBytesOut, received * SHADED_POINT);
+        counters.add(Counter::AssembleReceived, received);
+        counters.add(Counter::AssembleReused, 16 * patches - received);
+        counters.add(Counter::AssembleWhole, whole);
+        if points.resident {
+            counters.add(Counter::MemoryReadControlPoints, self.points.bytes());
+            let uncached = if draw.indices.is_some() { 16 * patches } else { received };
+            let bytes = uncached * link::point_bytes(points);
+            counters.add(Counter::MemoryUncachedControlPoints, bytes);
+            self.points.count(&config.memory, counters);
+        }
+        let Some(attributes) = attributes else { return };
+        counters.add(Counter::AssembleCorners, corners);
+        counters.add(Counter::AssembleCornersReused, 4 * patches - corners);
+        if attributes.resident {
+            counters.add(Counter::MemoryReadAttributes, self.corners.bytes());
+            self.corners.count(&config.memory, counters);
+        }
+    }
+}
+
+/// Bytes of a vertex on the link, where the host tessellates.
+fn vertex_bytes(attributes: Option<&Corners>, config: &Config) -> u64 {
+    match attributes {
+        None => config.triangles.vertex_bytes.into(),
+        Some(corners) => {
+            u64::from(config.triangles.bare_vertex_bytes) + corners.table.corner_bytes()
+        }
+    }
+}
