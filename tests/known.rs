@@ -22,7 +22,8 @@ use tessim::sink::NoMesh;
 use tessim::trace::read::Reader;
 use tessim::unit::simulate;
 
-const SHIPPED: [&str; 5] = ["mesh", "rational", "teacup", "teapot", "teaspoon"];
+const SHIPPED: [&str; 8] =
+    ["fan", "indexed", "mesh", "rational", "strip", "teacup", "teapot", "teaspoon"];
 
 fn run_text(text: &str, config: &Config) -> Result<Report> {
     let reader = Reader::new(BufReader::new(text.as_bytes()), "text", "traces");
@@ -167,12 +168,22 @@ fn a_mesh_brings_its_points_once_an_instance() {
 /// Every law that the declarations state.
 fn laws(c: &Counters, config: &Config) {
     let get = |counter| c.get(counter);
-    let link =
-        [C::LinkCommands, C::LinkMatrices, C::LinkControlPoints, C::LinkVertices, C::LinkIndices];
+    let link = [
+        C::LinkCommands,
+        C::LinkMatrices,
+        C::LinkControlPoints,
+        C::LinkAttributes,
+        C::LinkVertices,
+        C::LinkIndices,
+    ];
     let payload: u64 = link.map(get).iter().sum();
     let burst = u64::from(config.memory.burst);
-    let moved = get(C::MemoryReadControlPoints) + get(C::MemoryWrittenControlPoints);
+    let moved = get(C::MemoryReadControlPoints)
+        + get(C::MemoryReadAttributes)
+        + get(C::MemoryWrittenControlPoints)
+        + get(C::MemoryWrittenAttributes);
     let emit = u64::from(config.emit.vertex_bytes) * get(C::EmitVertices)
+        + get(C::EmitAttributeBytes)
         + 3 * u64::from(config.emit.index_bytes) * get(C::EmitTriangles);
     let equal = [
         (get(C::LinkTotal), payload + get(C::LinkOverhead) + get(C::LinkRequests)),
@@ -189,12 +200,21 @@ fn laws(c: &Counters, config: &Config) {
         (get(C::StitchTriangles), get(C::EmitTriangles)),
         (get(C::EmitVertices), get(C::VertexShaderInvocations)),
         (get(C::EmitBytes), emit),
+        (
+            get(C::EmitAttributeBytes),
+            get(C::EvaluateAttributes) * config.attributes.component_bytes(),
+        ),
+        ((get(C::AssembleCorners) + get(C::AssembleCornersReused)) % 4, 0),
     ];
     for (k, (a, b)) in equal.iter().enumerate() {
         assert_eq!(a, b, "law {k} under {config:?}");
     }
     let at_most = [
         (get(C::MemoryWrittenControlPoints), get(C::LinkControlPoints)),
+        (get(C::MemoryWrittenAttributes), get(C::LinkAttributes)),
+        (get(C::MemoryReadControlPoints), get(C::MemoryUncachedControlPoints)),
+        (get(C::AssembleWhole), get(C::AssemblePatches)),
+        (get(C::AssembleCorners) + get(C::AssembleCornersReused), 4 * get(C::AssemblePatches)),
         (get(C::PortSaturated), get(C::PortPoints)),
         (get(C::PortSaturated), get(C::PortOverflows)),
         (get(C::PortOverflows), 4 * get(C::PortSaturated)),
@@ -252,6 +272,8 @@ fn counters_conserve_what_flows_under_every_configuration() {
         config.link.transfer = random.of([TransferMode::Push, TransferMode::Pull]);
         config.memory.burst = random.of([16, 32, 64]);
         config.level.max_level = random.of([None, Some(4.0)]);
+        config.assemble.cache_entries = random.of([0, 1, 16, 32, 200]);
+        config.attributes.width = random.of([17, 32, 46]);
         for name in SHIPPED {
             let report = run_text(&shipped(name), &config).expect("a shipped trace");
             for frame in &report.frames {

@@ -12,6 +12,7 @@ use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::mesh::Mesh;
 use tessim::trace::scene::model::Model;
 use tessim::trace::scene::newell::Newell;
+use tessim::trace::scene::primitives::{Kind, Primitives};
 use tessim::trace::scene::rational::Rational;
 use tessim::trace::scene::teacups::Teacups;
 use tessim::trace::write::Writer;
@@ -23,6 +24,13 @@ fn shipped(name: &str) -> PathBuf {
 fn model(model: Newell) -> Vec<u8> {
     let mut text = Vec::new();
     let scene = Model { model, tessellation: Tessellation::default() };
+    scene.write(&mut text).expect("memory takes all");
+    text
+}
+
+fn primitives(kind: Kind) -> Vec<u8> {
+    let mut text = Vec::new();
+    let scene = Primitives { kind, tessellation: Tessellation::default() };
     scene.write(&mut text).expect("memory takes all");
     text
 }
@@ -56,6 +64,9 @@ fn shipped_traces_are_what_the_scenes_write() {
         ("teaspoon.jsonl", model(Newell::Teaspoon), (1, 16)),
         ("mesh.jsonl", mesh, (2, 96)),
         ("rational.jsonl", rational, (1, 24)),
+        ("strip.jsonl", primitives(Kind::Ribbon), (1, 12)),
+        ("fan.jsonl", primitives(Kind::Domes), (1, 16)),
+        ("indexed.jsonl", primitives(Kind::Rings), (1, 96)),
     ];
     for (name, text, counts) in expected {
         if std::env::var_os("UPDATE_EXPECT").is_some() {

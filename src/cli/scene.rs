@@ -14,6 +14,7 @@ use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::mesh::Mesh;
 use tessim::trace::scene::model::Model;
 use tessim::trace::scene::newell::Newell;
+use tessim::trace::scene::primitives::{Kind, Primitives};
 use tessim::trace::scene::rational::Rational;
 use tessim::trace::scene::teacups::Teacups;
 
@@ -46,6 +47,12 @@ enum Scene {
     Mesh,
     /// An exact torus round an exact sphere: weights other than 1
     Rational(Levels),
+    /// A ribbon: a strip of 12 patches with attributes
+    Ribbon(Levels),
+    /// Two domes: fans of 8 patches with attributes, compact and full
+    Domes(Levels),
+    /// Three rings: an indexed mesh of 32 patches with attributes, resident, in three instances
+    Rings(Levels),
     /// A bumpy surface of as many patches as you like
     Grid {
         /// Patches along y
@@ -150,6 +157,10 @@ impl Scene {
             let model = Model { model, tessellation: levels.tessellation()? };
             Ok(Box::new(move |mut out| model.write(&mut out)))
         };
+        let primitives = |kind, levels: &Levels| -> Result<Writer> {
+            let scene = Primitives { kind, tessellation: levels.tessellation()? };
+            Ok(Box::new(move |mut out| scene.write(&mut out)))
+        };
         match self {
             Self::Teapot(levels) => model(Newell::Teapot, levels),
             Self::Teapot28(levels) => model(Newell::Teapot28, levels),
@@ -160,6 +171,9 @@ impl Scene {
                 let rational = Rational { tessellation: levels.tessellation()? };
                 Ok(Box::new(move |mut out| rational.write(&mut out)))
             }
+            Self::Ribbon(levels) => primitives(Kind::Ribbon, levels),
+            Self::Domes(levels) => primitives(Kind::Domes, levels),
+            Self::Rings(levels) => primitives(Kind::Rings, levels),
             &Self::Grid { rows, columns, ref levels } => {
                 let grid = Grid { rows, columns, tessellation: levels.tessellation()? };
                 Ok(Box::new(move |mut out| grid.write(&mut out)))

@@ -86,3 +86,19 @@ pub fn held_peak(cells: &[Cell]) -> u64 {
     }
     peak
 }
+
+/// For each of the points that an indexed mesh uses, in order, whether a first-in first-out cache
+/// of so many entries lacks it: it was not among the last of those that were lacking before.
+#[must_use]
+pub fn lacking(indices: &[u32], entries: usize) -> Vec<bool> {
+    let mut lacked: Vec<u32> = Vec::new();
+    let lacks = |index: &u32| {
+        let held = &lacked[lacked.len().saturating_sub(entries)..];
+        let lacks = !held.contains(index);
+        if lacks {
+            lacked.push(*index);
+        }
+        lacks
+    };
+    indices.iter().map(lacks).collect()
+}

@@ -3,7 +3,7 @@
 
 use crate::error::{Error, Result};
 use std::fs::{File, Permissions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
@@ -69,18 +69,24 @@ pub fn spool(path: &Path) -> Result<BufWriter<File>> {
     file.map(BufWriter::new).map_err(|error| Error::system(path, reason(&error)))
 }
 
+/// Everything in `spool`, to be read again from its start.
+///
+/// # Errors
+/// [`Error::System`] on `path`.
+pub(super) fn respool(spool: BufWriter<File>, path: &Path) -> Result<BufReader<File>> {
+    use std::io::Seek;
+    let file = spool.into_inner().map_err(io::IntoInnerError::into_error);
+    let rewound = file.and_then(|mut file| file.rewind().map(|()| BufReader::new(file)));
+    rewound.map_err(|error| Error::system(path, error))
+}
+
 /// Appends everything in `spool` to `out`.
 ///
 /// # Errors
 /// [`Error::System`] on `path`.
 pub fn unspool(spool: BufWriter<File>, out: &mut impl Write, path: &Path) -> Result<()> {
-    use std::io::Seek;
-    let file = spool.into_inner().map_err(io::IntoInnerError::into_error);
-    let copied = file.and_then(|mut file| {
-        file.rewind()?;
-        io::copy(&mut file, out)
-    });
-    copied.map(drop).map_err(|error| Error::system(path, error))
+    let mut spooled = respool(spool, path)?;
+    io::copy(&mut spooled, out).map(drop).map_err(|error| Error::system(path, error))
 }
 
 /// The folder that holds `path`.

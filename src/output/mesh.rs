@@ -69,7 +69,7 @@ impl MeshFile {
         }
         let out = AtomicFile::create(folder.join(form.file_name()))?;
         let form = match form {
-            MeshForm::Ply => Form::Ply(Ply::create(out)?),
+            MeshForm::Ply => Form::Ply(Ply::create(out, &config.attributes)?),
             MeshForm::Obj => Form::Obj(Obj::create(out)?),
             MeshForm::Svg => Form::Svg(Svg::create(out, title, config.emit.subpixel_bits)?),
         };

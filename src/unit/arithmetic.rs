@@ -42,6 +42,8 @@ struct Formats {
     w: u64,
     /// A forward-difference register.
     register: u64,
+    /// A component of an attribute.
+    attribute: u64,
     /// A screen coordinate.
     screen: u64,
 }
@@ -52,6 +54,7 @@ impl Formats {
         Self {
             w,
             register: w + u64::from(config.guard()) + 3,
+            attribute: config.attributes.width.into(),
             screen: 16 + u64::from(config.emit.subpixel_bits),
         }
     }
@@ -180,6 +183,13 @@ pub const PIECES: &[Piece] = &[
                   multiplications by 17 bits and an addition",
         times: |f| f.curve_points(),
         once: |f| Ops::default().adds(1, 17).with(6, interpolation(f)),
+    },
+    Piece {
+        block: Block::Evaluate,
+        meaning: "a component of an attribute: 3 interpolations, each 2 multiplications by 17 bits \
+                  and an addition, of attributes.width bits; 1 - u and 1 - v are in the lists",
+        times: |f| f.get(C::EvaluateAttributes),
+        once: |f| Ops::default().muls(6, f.attribute, 17).adds(3, f.attribute + 18),
     },
     Piece {
         block: Block::Evaluate,

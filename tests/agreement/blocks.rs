@@ -3,11 +3,12 @@
 use super::ledger::Ledger;
 use super::table::{At, Quantity as Q, drifts, forward_surface};
 use ethnum::I256;
-use rtl_model::assemble::{FanEncoding, Primitive};
+use rtl_model::assemble::{Cache, FanEncoding, Primitive};
+use rtl_model::attribute;
 use rtl_model::backface::{self, Verdict};
 use rtl_model::evaluate::{Evaluate, Settings};
 use rtl_model::number::{Format, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch};
-use rtl_model::patch::{EDGES, Levels, Patch, Triangle, Vertex, View};
+use rtl_model::patch::{EDGES, Levels, ONE, Patch, Triangle, Vertex, View};
 use rtl_model::place::Placement;
 use rtl_model::stitch::{Degenerate, Stitch};
 use rtl_model::{clip, emit, port};
@@ -52,6 +53,32 @@ pub(crate) fn assemble(ledger: &mut Ledger, primitive: Primitive) {
     let spare = primitive.edge_entries_peak() as f64 - held as f64;
     // Fewer entries than points that are still needed is no rounding but a loss.
     ledger.error(Q::AssembleHeld, &At::default(), if spare < 0.0 { f64::INFINITY } else { spare });
+}
+
+pub(crate) fn cache(ledger: &mut Ledger, indices: &[u32], entries: u32) {
+    let mut cache = Cache::new(entries);
+    let lacking = golden::assemble::lacking(indices, entries as usize);
+    for (&index, want) in indices.iter().zip(lacking) {
+        ledger.equal(Q::AssembleCached, !cache.fetch(index), want);
+    }
+}
+
+struct Attribute([i64; 4], [u32; 2]);
+
+impl Modal for Attribute {
+    type Output = i64;
+
+    fn run<R: RoundingMode, O: OverflowMode>(self) -> i64 {
+        attribute::accept::<R>(self.0, self.1[0], self.1[1])
+    }
+}
+
+pub(crate) fn attribute(ledger: &mut Ledger, corners: [i64; 4], at: [u32; 2], rounding: Rounding) {
+    let got = dispatch(rounding, Overflow::Saturate, Attribute(corners, at));
+    let [u, v] = at.map(|t| f64::from(t) / f64::from(ONE));
+    let want = golden::attribute::bilinear(corners.map(|c| c as f64), u, v);
+    let at = At { rounding, ..At::default() };
+    ledger.error(Q::Attribute, &at, (got as f64 - want).abs());
 }
 
 pub(crate) fn clip(ledger: &mut Ledger, patch: &Patch, view: &View) {

@@ -37,6 +37,19 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
             blocks::assemble(ledger, Primitive::Mesh { rows, columns });
         }
     }
+    for entries in [0, 1, 3, 16, 32, 100] {
+        for _ in 0..10 * scale {
+            let range = random.of([4, 30, 200]);
+            let indices: Vec<u32> = (0..500).map(|_| random.integer(0, range)).collect();
+            blocks::cache(ledger, &indices, entries);
+        }
+    }
+    for _ in 0..20_000 * scale {
+        let bits = random.integer(1, 45);
+        let corners = [0; 4].map(|_: i64| random.bits() as i64 >> (64 - bits));
+        let at = [0; 2].map(|_: u32| random.integer(0, 65536));
+        blocks::attribute(ledger, corners, at, random.of(Rounding::ALL));
+    }
     for k in 0..2_800 * scale {
         culling_and_levels(ledger, &mut random, Kind::ALL[k as usize % 7]);
     }

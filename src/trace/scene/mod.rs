@@ -7,5 +7,7 @@ pub mod grid;
 pub mod mesh;
 pub mod model;
 pub mod newell;
+pub mod primitives;
 pub mod rational;
+mod round;
 pub mod teacups;
