@@ -26,6 +26,7 @@
 //! current rayon pool and changes nothing. A consumer of triangles implements [`sink::Sink`];
 //! [`output`] holds those that the command line has.
 
+pub mod attribute;
 pub mod config;
 pub mod error;
 pub mod golden;

@@ -1,7 +1,7 @@
 //! Where triangles go: the interface between the units and whoever consumes their meshes. A leaf.
 
+use crate::attribute::Attribute;
 use crate::error::Result;
-use crate::trace::attributes::Attribute;
 use rtl_model::emit::Screen;
 use rtl_model::patch::{Triangle, Vertex, View};
 

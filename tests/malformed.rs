@@ -7,6 +7,8 @@ mod bpt;
 mod files;
 #[path = "malformed/lines.rs"]
 mod lines;
+#[path = "malformed/surfaces.rs"]
+mod surfaces;
 #[path = "malformed/text.rs"]
 mod text;
 

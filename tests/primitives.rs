@@ -35,9 +35,18 @@ struct Surface {
     corners: Vec<[f32; COMPONENTS]>,
 }
 
+/// The mesh of a patch.
+#[derive(PartialEq)]
+struct Mesh {
+    patch: u32,
+    vertices: Vec<Vertex>,
+    triangles: Vec<Triangle>,
+    attributes: Vec<i64>,
+}
+
 /// All meshes, as they come.
 #[derive(Default, PartialEq)]
-struct Meshes(Vec<(u32, Vec<Vertex>, Vec<Triangle>, Vec<i64>)>);
+struct Meshes(Vec<Mesh>);
 
 impl Sink for Meshes {
     fn wants(&self, _frame: u64) -> bool {
@@ -52,7 +61,8 @@ impl Sink for Meshes {
         let (vertices, triangles) = (mesh.vertices.to_vec(), mesh.triangles.to_vec());
         assert_eq!(mesh.attributes.len(), COMPONENTS * vertices.len());
         assert_eq!(mesh.layout.len(), 2);
-        self.0.push((mesh.patch, vertices, triangles, mesh.attributes.to_vec()));
+        let attributes = mesh.attributes.to_vec();
+        self.0.push(Mesh { patch: mesh.patch, vertices, triangles, attributes });
         Ok(())
     }
 }
@@ -151,7 +161,7 @@ fn same(
     let indexed = Draw { indices: Some(Arc::new(indices)), ..draw(Primitive::Indexed { count }) };
     let (indexed, indexed_counters) = surface.draw(indexed, resident, config);
     assert!(own == indexed, "{primitive:?} is other than its indexed mesh");
-    let made = own.0.iter().map(|mesh| mesh.1.len()).sum::<usize>() as u64;
+    let made = own.0.iter().map(|mesh| mesh.vertices.len()).sum::<usize>() as u64;
     assert_eq!(own_counters.get(C::EvaluateAttributes), COMPONENTS as u64 * made);
     [own_counters, apart_counters, indexed_counters]
 }

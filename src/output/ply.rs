@@ -12,10 +12,10 @@
 
 use super::file::{AtomicFile, respool, spool, unspool};
 use super::space::{parameter, real, ulp, world};
+use crate::attribute::Attribute;
 use crate::config::Attributes;
 use crate::error::{Error, Result};
 use crate::sink::{FrameInfo, PatchMesh};
-use crate::trace::attributes::Attribute;
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 
@@ -212,7 +212,7 @@ fn write_faces(out: &mut impl Write, first: u32, mesh: &PatchMesh<'_>) -> io::Re
 mod tests {
     use super::super::space::tests::frame;
     use super::*;
-    use crate::trace::attributes::AttributeFormat;
+    use crate::attribute::AttributeFormat;
     use rtl_model::patch::{HALF, ONE, Vertex};
 
     #[test]

@@ -32,56 +32,6 @@ pub(crate) const LINES: &[(&str, &str, &[&str])] = &[
     ("NaN", r#"{"points":{"id":1,"xyz":[[☞NaN,0,0]]}}"#, &["`NaN`", "JSON has no NaN"]),
     ("leading zero", r#"{"points":{"id":0☞1}}"#, &["not JSON: invalid number"]),
     (
-        "attributes without an id",
-        r#"{"attributes":☞{"layout":[],"values":[]}}"#,
-        &["attributes: `id` is missing"],
-    ),
-    (
-        "attributes without a layout",
-        r#"{"attributes":{"id":0,"layout":☞[],"values":[[1]]}}"#,
-        &["attributes.layout: found []", "at least one attribute"],
-    ),
-    (
-        "integer attributes",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a","format":☞"uint8x4"}],"values":[]}}"#,
-        &["layout[0].format: found \"uint8x4\"", "did you mean \"unorm8x4\"?"],
-    ),
-    (
-        "an attribute's name",
-        r#"{"attributes":{"id":0,"layout":[{"name":☞"a b","format":"float32"}],"values":[]}}"#,
-        &["layout[0].name: found \"a b\"", "letters, digits and underscores"],
-    ),
-    (
-        "two attributes of a name",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a","format":"float32"},{"name":☞"a","format":"unorm8"}],"values":[]}}"#,
-        &["layout[1].name: found \"a\"", "that no other attribute"],
-    ),
-    (
-        "too many components",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a0","format":"float32x4"},{"name":"a1","format":"float32x4"},{"name":"a2","format":"float32x4"},{"name":"a3","format":"float32x4"},{"name":"a4","format":"float32x4"},{"name":"a5","format":"float32x4"},{"name":"a6","format":"float32x4"},{"name":"a7","format":"float32x4"},{"name":"a8","format":"float32x4"},{"name":"a9","format":"float32x4"},{"name":"b0","format":"float32x4"},{"name":"b1","format":"float32x4"},{"name":"b2","format":"float32x4"},{"name":"b3","format":"float32x4"},{"name":"b4","format":"float32x4"},{"name":"b5","format":"float32x4"},☞{"name":"b6","format":"float32"}],"values":[]}}"#,
-        &["layout[16]: found 65 components", "at most 64"],
-    ),
-    (
-        "a corner short of a number",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a","format":"float32x3"}],"values":[[1,2,3],☞[1,2]]}}"#,
-        &["values[1]: found [1,2]", "the 3 numbers of a corner"],
-    ),
-    (
-        "a corner with a number too many",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a","format":"float32"}],"values":[☞[1,2]]}}"#,
-        &["values[0]: found [1,2]", "the 1 numbers of a corner"],
-    ),
-    (
-        "unorm above 1",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a","format":"unorm8x2"}],"values":[[0.5,☞1.5]]}}"#,
-        &["values[0][1]: found 1.5", "from 0 to 1, as unorm8x2 has"],
-    ),
-    (
-        "attributes of no corner",
-        r#"{"attributes":{"id":0,"layout":[{"name":"a","format":"float16"}],"values":☞[]}}"#,
-        &["values: found []", "at least one corner"],
-    ),
-    (
         "viewport of 0",
         r#"{"frame":{"viewport":[1280,☞0]}}"#,
         &["frame.viewport[1]: found 0", "1 to 16384"],
@@ -312,77 +262,6 @@ pub(crate) const LINES: &[(&str, &str, &[&str])] = &[
         "unknown primitive",
         r#"{"draw":{"primitive":☞"patch","points":0,"count":1}}"#,
         &["draw.primitive: found \"patch\"", "did you mean \"patches\"?"],
-    ),
-    (
-        "strip of too few points",
-        r#"{"draw":{"primitive":"strip","points":☞0,"count":9}}"#,
-        &["draw.points", "expected at least 112 for 9 patches"],
-    ),
-    (
-        "strip with rows",
-        r#"{"draw":{"primitive":"strip","points":0,"count":1,☞"rows":1}}"#,
-        &["found `rows`, which the primitive \"strip\" has not"],
-    ),
-    (
-        "fan's encoding",
-        r#"{"draw":{"primitive":"fan","points":0,"count":1,"encoding":☞"dense"}}"#,
-        &["draw.encoding: found \"dense\"", "\"compact\", \"full\""],
-    ),
-    (
-        "a mesh's encoding",
-        r#"{"draw":{"primitive":"mesh","points":0,"rows":1,"columns":1,☞"encoding":"full"}}"#,
-        &["found `encoding`, which the primitive \"mesh\" has not"],
-    ),
-    ("fan without a count", r#"{"draw":☞{"primitive":"fan","points":0}}"#, &["`count` is missing"]),
-    (
-        "indexed mesh without indices",
-        r#"{"draw":☞{"primitive":"indexed_mesh","points":0}}"#,
-        &["`indices` is missing", "16 integers a patch"],
-    ),
-    (
-        "indexed mesh of nothing",
-        r#"{"draw":{"primitive":"indexed_mesh","points":0,"indices":☞[]}}"#,
-        &["draw.indices: found []", "at least one patch"],
-    ),
-    (
-        "fifteen indices",
-        r#"{"draw":{"primitive":"indexed_mesh","points":0,"indices":[☞[0,1,2,3,4,5,6,7,8,9,10,11,12,13,14]]}}"#,
-        &["draw.indices[0]: found [0,1", "an array of 16 indices"],
-    ),
-    (
-        "a negative index",
-        r#"{"draw":{"primitive":"indexed_mesh","points":0,"indices":[[0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,☞-1]]}}"#,
-        &["draw.indices[0][15]: found -1", "from 0 to 65535"],
-    ),
-    (
-        "a wide index in a narrow format",
-        r#"{"draw":{"primitive":"indexed_mesh","points":0,"index_format":"uint16","indices":[[☞65536,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15]]}}"#,
-        &["found 65536", "from 0 to 65535"],
-    ),
-    (
-        "an index beyond the points",
-        r#"{"draw":{"primitive":"indexed_mesh","points":☞0,"indices":[[0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,999]]}}"#,
-        &["draw.points", "expected at least 1000 for the index 999"],
-    ),
-    (
-        "index format of one byte",
-        r#"{"draw":{"primitive":"indexed_mesh","points":0,"index_format":☞"uint8","indices":[]}}"#,
-        &["draw.index_format: found \"uint8\"", "\"uint16\", \"uint32\""],
-    ),
-    (
-        "indices without an indexed mesh",
-        r#"{"draw":{"primitive":"patches","points":0,"count":1,☞"indices":[]}}"#,
-        &["found `indices`, which the primitive \"patches\" has not"],
-    ),
-    (
-        "corners without attributes",
-        r#"{"draw":{"primitive":"indexed_mesh","points":0,"indices":[[0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15]],☞"attribute_indices":[[0,1,2,3]]}}"#,
-        &["found `attribute_indices`, which go with `attributes`"],
-    ),
-    (
-        "unknown attributes",
-        r#"{"draw":{"primitive":"patches","points":0,"count":1,"attributes":☞7}}"#,
-        &["draw.attributes: found 7", "the id of attributes (none so far)"],
     ),
     (
         "draw without a primitive",

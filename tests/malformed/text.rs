@@ -2,6 +2,7 @@
 //! part of the input.
 
 use super::lines::LINES;
+use super::surfaces::{SURFACES, spelt};
 use super::{Case, check, distinct};
 use tessim::trace::read::Reader;
 
@@ -89,9 +90,9 @@ fn single_lines() {
     );
     let whole = format!("{good}{{\"end\":{{}}}}\n");
     assert!(Reader::new(whole.as_bytes(), "good", ".").all(|c| c.is_ok()), "the frame is good");
-    for (name, text, wanted) in LINES {
+    for (name, text, wanted) in LINES.iter().chain(SURFACES) {
         // Matrices that stand before the hand move it.
-        let (line, (_, column)) = pointed(&text.replace("ONE", ONE));
+        let (line, (_, column)) = pointed(&spelt(text).replace("ONE", ONE));
         refuse(name, format!("{good}{line}\n").as_bytes(), (4, column), wanted);
     }
 }
@@ -132,7 +133,7 @@ fn long_lines() {
 
 #[test]
 fn names_of_cases_are_distinct() {
-    let all = WHOLE.iter().chain(LINES);
+    let all = WHOLE.iter().chain(LINES).chain(SURFACES);
     let cases: Vec<Case<'_>> = all.map(|c| (c.0, c.1.as_bytes(), (1, 1), c.2)).collect();
     distinct(&cases);
     assert!(cases.len() >= 60, "{}", cases.len());

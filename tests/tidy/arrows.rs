@@ -19,7 +19,7 @@ const PARTS: [(&str, &[&str]); 9] = [
 ];
 
 /// What every part may import, and what imports only its like.
-const LEAVES: [&str; 4] = ["config", "error", "sink", "report"];
+const LEAVES: [&str; 5] = ["attribute", "config", "error", "sink", "report"];
 
 /// Parts that may not see all of `rtl_model`, and what they may see.
 const OF_HARDWARE: [(&str, &[&str]); 2] = [("golden", &["patch"]), ("gpu", &["number", "patch"])];
