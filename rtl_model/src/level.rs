@@ -22,7 +22,6 @@ mod bound;
 mod dyadic;
 mod subdivide;
 
-use crate::number::{NearestEven, divide};
 use crate::patch::{EDGES, Level, Levels, ONE, Patch, Point, View};
 
 pub use dyadic::{Termination, subdivide};
@@ -76,7 +75,7 @@ pub struct Events {
 type Pixel = Option<[i64; 2]>;
 
 /// Largest projected coordinate, 2^23 pixels in Q24.16.
-const PIXEL_MAX: i128 = (1 << 39) - 1;
+const PIXEL_MAX: i64 = (1 << 39) - 1;
 
 /// Chooses the levels of a patch.
 #[must_use]
@@ -149,11 +148,22 @@ fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
 /// the viewport's centre does not matter to any criterion, nor does the direction of y, so both are
 /// left out.
 fn quotients([x, y]: [i64; 2], w: i64, view: &View) -> Pixel {
-    let [width, height] = view.viewport.map(i128::from);
-    let pixel = |c: i64, size: i128| {
-        // c / w * size / 2 * 2^16: W + 14 + 15 bits over W bits, and 12 guard bits at most
-        let quotient = divide::<NearestEven>(i128::from(c) * size * i128::from(ONE / 2), w.into());
-        (quotient.abs() <= PIXEL_MAX).then_some(quotient as i64)
+    if w <= 0 {
+        return None;
+    }
+    let (w, [width, height]) = (w as u64, view.viewport);
+    // To the nearest, of two the even one: the same for either sign.
+    let pixel = |c: i64, size: u32| {
+        // c / w * size / 2 * 2^16: W + 14 + 15 bits over W bits, with up to 12 guard bits each
+        let numerator = u128::from(c.unsigned_abs()) * u128::from(size * (ONE / 2));
+        if numerator >> 39 > u128::from(w) {
+            return None; // beyond the greatest, and the quotient need not be known
+        }
+        let quotient = (numerator / u128::from(w)) as u64;
+        let rest = (numerator as u64).wrapping_sub(quotient.wrapping_mul(w));
+        let up = 2 * rest > w || (2 * rest == w && quotient & 1 != 0);
+        let rounded = (quotient + u64::from(up)) as i64;
+        (rounded <= PIXEL_MAX).then_some(if c < 0 { -rounded } else { rounded })
     };
-    if w > 0 { Some([pixel(x, width)?, pixel(y, height)?]) } else { None }
+    Some([pixel(x, width)?, pixel(y, height)?])
 }

@@ -45,9 +45,9 @@ pub fn subdivide(
 }
 
 fn eight_curves(patch: &Patch, subdivide: &Subdivide<'_>) -> (Lists, Events) {
-    let (_, mut events) = pixels(patch, subdivide.view);
+    let (pixels, mut events) = pixels(patch, subdivide.view);
     let mut curve = |line: [usize; 4]| -> Subdivision {
-        let done = subdivide.accept(&line.map(|k| patch.points[k]));
+        let done = subdivide.projected(&line.map(|k| patch.points[k]), line.map(|k| pixels[k]));
         events.splits += done.splits;
         done
     };

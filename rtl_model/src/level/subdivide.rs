@@ -62,8 +62,12 @@ impl Subdivide<'_> {
     /// Divides a curve as often as it needs.
     #[must_use]
     pub fn accept(&self, curve: &[Point; 4]) -> Subdivision {
-        let points = curve.map(|[x, y, _, w]| [x << GUARD, y << GUARD, w << GUARD]);
-        let whole = Piece { points, pixels: points.map(|p| self.project(p)), first: 0, depth: 0 };
+        self.projected(curve, guarded(curve).map(|p| self.project(p)))
+    }
+
+    /// The same, where the points' projections are known.
+    pub(super) fn projected(&self, curve: &[Point; 4], pixels: [Pixel; 4]) -> Subdivision {
+        let whole = Piece { points: guarded(curve), pixels, first: 0, depth: 0 };
         let mut done = Subdivision { list: Dyadic::NONE, splits: 0, clamped: false };
         let (mut waiting, mut count) = ([Piece::default(); STACK], 0);
         let mut piece = whole;
@@ -124,24 +128,41 @@ impl Subdivide<'_> {
     }
 }
 
+fn guarded(curve: &[Point; 4]) -> [Guarded; 4] {
+    curve.map(|[x, y, _, w]| [x << GUARD, y << GUARD, w << GUARD])
+}
+
 /// Whether the inner points are within `pixels` of the chord's line, or, where the chord is a
 /// point, of it; `None` where a point has no projection.
 fn flat(points: &[Pixel; 4], pixels: u32) -> Option<bool> {
     let [a, b, c, d] = *points;
     let (a, d) = (a?, d?);
-    let from = |p: [i64; 2]| [i128::from(p[0] - a[0]), i128::from(p[1] - a[1])];
-    let square = |[x, y]: [i128; 2]| (x * x + y * y) as u128;
-    let (chord, inner) = (from(d), [from(b?), from(c?)]);
-    let pixels = u128::from(pixels);
+    let from = |p: [i64; 2]| [p[0] - a[0], p[1] - a[1]]; // 41 bits
+    let (chord, b, c) = (from(d), from(b?), from(c?));
     if chord == [0; 2] {
-        return Some(inner.into_iter().all(|p| square(p) <= pixels * pixels));
+        let reach = u128::from(pixels) * u128::from(pixels);
+        return Some(square(b).max(square(c)) <= reach);
     }
-    // height * |AD| <= pixels * |AD|, with |AD| rounded down: 2^-32 square pixels
-    let limit = pixels * floor_sqrt(square(chord));
-    let area = |p: [i128; 2]| (p[0] * chord[1] - p[1] * chord[0]).unsigned_abs();
-    Some(inner.into_iter().all(|p| area(p) <= limit))
+    // height <= pixels, that is area / pixels <= |AD|, where no more than |AD| rounded down is
+    // allowed: so the quotient is rounded up, and compared squared.
+    let quotient = ceil_div(area(b, chord).max(area(c, chord)), pixels);
+    let too_long = quotient >> 42 != 0; // |AD| is not, and the square would not fit
+    Some(!too_long && quotient * quotient <= square(chord))
 }
 
-fn floor_sqrt(value: u128) -> u128 {
-    u64::try_from(value).map_or_else(|_| value.isqrt(), |narrow| narrow.isqrt().into())
+/// |(x, y)|^2, 2^-32 square pixels.
+fn square([x, y]: [i64; 2]) -> u128 {
+    let square = |c: i64| u128::from(c.unsigned_abs()) * u128::from(c.unsigned_abs());
+    square(x) + square(y)
+}
+
+/// Of the parallelogram over two vectors, 2^-32 square pixels.
+fn area(p: [i64; 2], q: [i64; 2]) -> u128 {
+    let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+    (product(p[0], q[1]) - product(p[1], q[0])).unsigned_abs()
+}
+
+fn ceil_div(value: u128, by: u32) -> u128 {
+    u64::try_from(value)
+        .map_or_else(|_| value.div_ceil(by.into()), |narrow| narrow.div_ceil(by.into()).into())
 }
