@@ -128,7 +128,7 @@ fn tessellate<'a>(
     let mut vertices: Vec<Vertex> = Vec::new();
     Evaluate::new(settings).accept(patch, &placement, &mut vertices);
     triangles.clear();
-    stitch::accept(&placement, triangles);
+    stitch::accept(placement.segments(), triangles);
     let placed = place(&levels);
     let parameters = placed.sites().iter().map(|site| [site.u.run, site.v.run]).collect();
     let pixel = |v: &Vertex| screen(v.position.map(|c| c as f64), view);

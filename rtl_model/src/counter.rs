@@ -192,6 +192,7 @@ counters! {
         LevelPatches "patches" Count "patches given levels", "= backface patches.in - patches.culled";
         LevelFlatness "patches.flatness" Count "patches whose levels keep a flatness", "flatness + edge_length <= patches; the rest have fixed levels";
         LevelEdgeLength "patches.edge_length" Count "patches whose levels come from the lengths of edges", "flatness + edge_length <= patches";
+        LevelSplits "splits" Count "de Casteljau subdivisions of boundary and internal curves (unit `sfarti`); 0 where levels come from bounds", "<= 8 x 127 x patches";
         LevelClamped "levels.clamped" Count "levels, of four edges and two interior directions, of which the criterion asked more than max_level", "<= 6 x patches";
         LevelNear "edges.near" Count "edges given max_level because one of their points is nearer than the near threshold", "<= 4 x patches";
         LevelOverflows "overflows" Count "projected control points that did not fit the projection's format", "";

@@ -24,7 +24,7 @@ mod schedule;
 
 use crate::number::{Format, Modal, OverflowMode, Rounding, RoundingMode, dispatch};
 use crate::patch::{EDGES, ONE, Patch, Point, Vertex};
-use crate::place::{List, Placement};
+use crate::place::{Numbering, Parameters, Placement};
 use serde::{Deserialize, Serialize};
 
 pub use casteljau::curve_point;
@@ -127,7 +127,15 @@ impl Evaluate {
     }
 
     /// Evaluates the vertices of a patch into `out`, in the order of the placement's numbering.
-    pub fn accept(&mut self, patch: &Patch, placement: &Placement, out: &mut Vec<Vertex>) -> Cost {
+    ///
+    /// A list that cannot be walked in equal steps, as a dyadic one cannot, is evaluated by de
+    /// Casteljau under every scheme.
+    pub fn accept<L: Parameters>(
+        &mut self,
+        patch: &Patch,
+        placement: &Placement<L>,
+        out: &mut Vec<Vertex>,
+    ) -> Cost {
         let Settings { rounding, overflow, .. } = self.settings;
         // Vertices of the patch before are overwritten, not cleared.
         out.resize(placement.vertices(), Vertex::default());
@@ -138,16 +146,16 @@ impl Evaluate {
     }
 }
 
-struct Work<'a> {
+struct Work<'a, L> {
     runner: Runner,
     curve: &'a mut Vec<Point>,
     rows: &'a mut Vec<[Point; 4]>,
     points: &'a [Point; 16],
-    placement: &'a Placement,
+    placement: &'a Placement<L>,
     out: &'a mut [Vertex],
 }
 
-impl Modal for Work<'_> {
+impl<L: Parameters> Modal for Work<'_, L> {
     type Output = Cost;
 
     fn run<R: RoundingMode, O: OverflowMode>(mut self) -> Cost {
@@ -155,7 +163,7 @@ impl Modal for Work<'_> {
         self.boundary::<R, O>(&mut cost);
         let [columns, rows] = self.placement.interior();
         if columns > 0 && rows > 0 {
-            // At level 1 there are two triangles and no interior.
+            // Otherwise all triangles stand on the boundary.
             self.row_points::<R, O>(rows, &mut cost);
             self.rows::<R, O>(columns, &mut cost);
         }
@@ -163,7 +171,7 @@ impl Modal for Work<'_> {
     }
 }
 
-impl Work<'_> {
+impl<L: Parameters> Work<'_, L> {
     /// The four edges, each a function of its own points alone.
     fn boundary<R: RoundingMode, O: OverflowMode>(&mut self, cost: &mut Cost) {
         let Self { runner, curve: inner, points, placement, out, .. } = self;
@@ -235,16 +243,15 @@ impl Runner {
     fn run<R: RoundingMode, O: OverflowMode, S: Slot>(
         &self,
         curve: &[Point; 4],
-        list: &List,
+        list: &impl Parameters,
         forward: bool,
         out: &mut [S],
         cost: &mut Cost,
     ) {
         let Settings { position, guard, .. } = self.settings;
-        let (curves, steps) = if forward {
-            forward::run::<R, S>(curve, list, guard, out)
-        } else {
-            casteljau::run::<R, S>(curve, list, out)
+        let (curves, steps) = match list.fractional() {
+            Some(list) if forward => forward::run::<R, S>(curve, list, guard, out),
+            _ => casteljau::run::<R, S>(curve, list.parameters(), out),
         };
         cost.curves += curves;
         cost.steps += steps;

@@ -1,4 +1,5 @@
-//! Level: patches in, a tessellation level for each edge and for the interior out.
+//! Level: patches in, a tessellation level for each edge and for the interior out; or, for a unit
+//! that divides at midpoints, a dyadic list for each.
 //!
 //! An edge's level is a function of that edge's own four points, the frame and the tessellation
 //! state, and the same from either end: so neighbours agree. Points are projected to pixels
@@ -18,9 +19,13 @@
 //! patches the flatness bounds are estimates, since a projected cubic is rational.
 
 mod bound;
+mod dyadic;
+mod subdivide;
 
-use crate::number::{NearestEven, divide};
 use crate::patch::{EDGES, Level, Levels, ONE, Patch, Point, View};
+
+pub use dyadic::{Termination, subdivide};
+pub use subdivide::{Subdivide, Subdivision};
 
 /// How levels are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,31 +67,40 @@ pub struct Events {
     pub near: u32,
     /// Control points whose projection did not fit.
     pub overflows: u32,
+    /// De Casteljau subdivisions.
+    pub splits: u32,
 }
 
 /// A projected point in pixels, Q24.16; `None` where there is none.
 type Pixel = Option<[i64; 2]>;
 
 /// Largest projected coordinate, 2^23 pixels in Q24.16.
-const PIXEL_MAX: i128 = (1 << 39) - 1;
+const PIXEL_MAX: i64 = (1 << 39) - 1;
 
 /// Chooses the levels of a patch.
 #[must_use]
 pub fn accept(patch: &Patch, view: &View, state: &State) -> (Levels, Events) {
-    let mut events = Events::default();
-    let asked = match state.criterion {
-        Criterion::Fixed { level } => Asked::same(u64::from(level.fx16())),
-        Criterion::Flatness { pixels } | Criterion::EdgeLength { pixels } => {
-            let points = patch.points.map(|p| project(p, view, &mut events));
-            events.near =
-                EDGES.iter().filter(|e| e.iter().any(|&k| points[k].is_none())).count() as u32;
-            match state.criterion {
-                Criterion::EdgeLength { .. } => bound::edge_length(&points, pixels),
-                _ => bound::flatness(&points, pixels, state),
-            }
+    let (asked, mut events) = match state.criterion {
+        Criterion::Fixed { level } => (Asked::same(u64::from(level.fx16())), Events::default()),
+        Criterion::EdgeLength { pixels: d } => {
+            let (points, events) = pixels(patch, view);
+            (bound::edge_length(&points, d), events)
+        }
+        Criterion::Flatness { pixels: d } => {
+            let (points, events) = pixels(patch, view);
+            (bound::flatness(&points, d, state), events)
         }
     };
     (asked.granted(state, &mut events), events)
+}
+
+/// Projects the points of a patch, and counts the edges that have one without projection.
+fn pixels(patch: &Patch, view: &View) -> ([Pixel; 16], Events) {
+    let mut events = Events::default();
+    let points = patch.points.map(|p| project(p, view, &mut events));
+    let near = EDGES.iter().filter(|e| e.iter().any(|&k| points[k].is_none()));
+    events.near = near.count() as u32;
+    (points, events)
 }
 
 /// What the criterion asks for, UQ48.16; `None` where a point has no projection.
@@ -121,21 +135,35 @@ fn clamp(level: u64, state: &State) -> Level {
     Level::clamped(level.clamp(state.min.fx16().into(), state.max.fx16().into()))
 }
 
-/// `x / w` in pixels. The offset of the viewport's centre does not matter to any criterion, nor
-/// does the direction of y, so both are left out.
 fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
     if w < view.near || w <= 0 {
         return None;
     }
-    let [width, height] = view.viewport.map(i128::from);
-    let pixel = |c: i64, size: i128| {
-        // c / w * size / 2 * 2^16: W + 14 + 15 bits over W bits
-        divide::<NearestEven>(i128::from(c) * size * i128::from(ONE / 2), w.into())
-    };
-    let (px, py) = (pixel(x, width), pixel(y, height));
-    if px.abs() > PIXEL_MAX || py.abs() > PIXEL_MAX {
-        events.overflows += 1;
+    let pixel = quotients([x, y], w, view);
+    events.overflows += u32::from(pixel.is_none());
+    pixel
+}
+
+/// `x / w` and `y / w` in pixels; `None` where they do not fit, or w is not positive. The offset of
+/// the viewport's centre does not matter to any criterion, nor does the direction of y, so both are
+/// left out.
+fn quotients([x, y]: [i64; 2], w: i64, view: &View) -> Pixel {
+    if w <= 0 {
         return None;
     }
-    Some([px as i64, py as i64])
+    let (w, [width, height]) = (w as u64, view.viewport);
+    // To the nearest, of two the even one: the same for either sign.
+    let pixel = |c: i64, size: u32| {
+        // c / w * size / 2 * 2^16: W + 14 + 15 bits over W bits, with up to 12 guard bits each
+        let numerator = u128::from(c.unsigned_abs()) * u128::from(size * (ONE / 2));
+        if numerator >> 39 > u128::from(w) {
+            return None; // beyond the greatest, and the quotient need not be known
+        }
+        let quotient = (numerator / u128::from(w)) as u64;
+        let rest = (numerator as u64).wrapping_sub(quotient.wrapping_mul(w));
+        let up = 2 * rest > w || (2 * rest == w && quotient & 1 != 0);
+        let rounded = (quotient + u64::from(up)) as i64;
+        (rounded <= PIXEL_MAX).then_some(if c < 0 { -rounded } else { rounded })
+    };
+    Some([pixel(x, width)?, pixel(y, height)?])
 }

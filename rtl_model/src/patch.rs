@@ -14,7 +14,11 @@
 //!      v0 (row 0)
 //! ```
 
+mod dyadic;
+
 use crate::number::Format;
+
+pub use dyadic::{DEPTH_MAX, Dyadic, Lists};
 
 /// A homogeneous point `[x, y, z, w]`: raw integers in the frame's position format.
 pub type Point = [i64; 4];

@@ -1,4 +1,5 @@
-//! Place: levels in, parameter lists out (fractional).
+//! Place: levels in, parameter lists out. Fractional lists are made here; dyadic ones, which the
+//! level block has decided already, are only written out.
 //!
 //! Moreton 2001 by way of Munkberg et al. 2008, section 2: an edge is two half-edges, each walked
 //! from its corner in steps of 1/level, the last step shortened to meet the other half at the
@@ -15,10 +16,26 @@
 //! rounded half up to U1.16, and the step of the forward differences, so that both agree and no
 //! half-run ever passes the centre.
 
+mod dyadic;
+
 use crate::patch::{HALF, Level, Levels, ONE};
+
+pub use dyadic::{DyadicList, DyadicPlacement};
 
 /// Most entries of a list: level 128.
 const ENTRIES_MAX: usize = 129;
+
+/// The parameters along one direction.
+pub trait Parameters: Clone + Default {
+    /// The parameters in U1.16, from 0 to 1, ascending: one more than segments.
+    fn parameters(&self) -> &[u32];
+
+    /// Segments, at most 128.
+    fn segments(&self) -> usize;
+
+    /// The list as a fractional one, which alone can be walked in equal steps.
+    fn fractional(&self) -> Option<&List>;
+}
 
 /// The parameters along one direction at one level.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,12 +89,6 @@ impl List {
         self.reciprocal
     }
 
-    /// Segments: 1, 3 or an even number to 128.
-    #[must_use]
-    pub fn segments(&self) -> usize {
-        self.segments
-    }
-
     /// Segments of a half-list, not counting one across the centre: 0, 1 or half the segments.
     #[must_use]
     pub fn half_segments(&self) -> usize {
@@ -88,12 +99,6 @@ impl List {
     #[must_use]
     pub fn crosses_centre(&self) -> bool {
         self.segments % 2 == 1
-    }
-
-    /// The parameters in U1.16, from 0 to 1, ascending: one more than segments.
-    #[must_use]
-    pub fn parameters(&self) -> &[u32] {
-        &self.parameters[..=self.segments]
     }
 
     fn fill(&mut self) {
@@ -121,15 +126,30 @@ impl List {
     }
 }
 
+impl Parameters for List {
+    fn parameters(&self) -> &[u32] {
+        &self.parameters[..=self.segments]
+    }
+
+    /// 1, 3 or an even number.
+    fn segments(&self) -> usize {
+        self.segments
+    }
+
+    fn fractional(&self) -> Option<&List> {
+        Some(self)
+    }
+}
+
 /// Where a patch gets its vertices.
 #[derive(Clone, Debug, Default)]
-pub struct Placement {
+pub struct Placement<L = List> {
     /// The lists of the edges v0, u1, v1, u0.
-    pub edges: [List; 4],
+    pub edges: [L; 4],
     /// The list of the interior along u; its inner entries are the interior's columns.
-    pub u: List,
+    pub u: L,
     /// The list of the interior along v.
-    pub v: List,
+    pub v: L,
     reciprocals: u32,
 }
 
@@ -171,35 +191,61 @@ impl Placement {
         let [a, b, c, d] = [0, 1, 2, 3].map(|edge| self.edges[edge].segments() as u8);
         Segments([a, b, c, d, self.u.segments() as u8, self.v.segments() as u8])
     }
+}
 
-    /// [`Segments::boundary`].
-    #[must_use]
-    pub fn boundary(&self) -> usize {
-        self.segments().boundary()
+impl<L: Parameters> Numbering for Placement<L> {
+    fn edge(&self, edge: usize) -> usize {
+        self.edges[edge].segments()
     }
 
-    /// [`Segments::interior`].
-    #[must_use]
-    pub fn interior(&self) -> [usize; 2] {
-        self.segments().interior()
+    fn interior(&self) -> [usize; 2] {
+        grid(self.u.segments() - 1, self.v.segments() - 1)
+    }
+}
+
+/// Columns and rows of a grid; without the ones there are not the others.
+fn grid(columns: usize, rows: usize) -> [usize; 2] {
+    if columns > 0 && rows > 0 { [columns, rows] } else { [0; 2] }
+}
+
+/// The numbers of a patch's vertices: the boundary counter-clockwise from (0, 0), then the interior
+/// row by row.
+pub trait Numbering {
+    /// Segments of an edge, by its place in the order v0, u1, v1, u0: at most 128.
+    fn edge(&self, edge: usize) -> usize;
+
+    /// Columns and rows of interior vertices: both 0, or both 1 to 127.
+    fn interior(&self) -> [usize; 2];
+
+    /// Vertices on the boundary, which is also its segments: at most 512.
+    fn boundary(&self) -> usize {
+        (0..4).map(|edge| self.edge(edge)).sum()
     }
 
-    /// [`Segments::vertices`].
-    #[must_use]
-    pub fn vertices(&self) -> usize {
-        self.segments().vertices()
+    /// Vertices in all, at most 16641.
+    fn vertices(&self) -> usize {
+        let [columns, rows] = self.interior();
+        self.boundary() + columns * rows
     }
 
-    /// [`Segments::starts`].
-    #[must_use]
-    pub fn starts(&self) -> [usize; 5] {
-        self.segments().starts()
+    /// Triangles: by Euler's formula two an interior vertex and one a boundary vertex, less two.
+    fn triangles(&self) -> usize {
+        2 * self.vertices() - self.boundary() - 2
+    }
+
+    /// Numbers of the first boundary vertex of each edge, counter-clockwise, and then of the first
+    /// interior vertex.
+    fn starts(&self) -> [usize; 5] {
+        let mut starts = [0; 5];
+        for edge in 0..4 {
+            starts[edge + 1] = starts[edge] + self.edge(edge);
+        }
+        starts
     }
 
     /// The vertex at entry `k` of the list of `edge`.
-    #[must_use]
     #[inline]
-    pub fn boundary_vertex(&self, starts: &[usize; 5], edge: usize, k: usize) -> usize {
+    fn boundary_vertex(&self, starts: &[usize; 5], edge: usize, k: usize) -> usize {
         let vertex = if edge < 2 { starts[edge] + k } else { starts[edge + 1] - k };
         if vertex == starts[4] { 0 } else { vertex } // v1 and u0 run against the numbering
     }
@@ -218,53 +264,23 @@ impl Default for Segments {
     }
 }
 
-impl Segments {
-    /// Segments of an edge, by its place in the order v0, u1, v1, u0.
-    #[must_use]
-    pub fn edge(&self, edge: usize) -> usize {
+impl Numbering for Segments {
+    #[inline]
+    fn edge(&self, edge: usize) -> usize {
         self.0[..4][edge].into()
     }
 
-    /// Vertices on the boundary, which is also its segments: at most 512.
-    #[must_use]
-    pub fn boundary(&self) -> usize {
-        self.0[..4].iter().map(|&n| usize::from(n)).sum()
-    }
-
-    /// Columns and rows of interior vertices: both 0 where every level is 1, else 1 to 127.
-    #[must_use]
-    pub fn interior(&self) -> [usize; 2] {
+    /// Both 0 where every level is 1.
+    #[inline]
+    fn interior(&self) -> [usize; 2] {
         [usize::from(self.0[4]) - 1, usize::from(self.0[5]) - 1]
     }
+}
 
+impl Segments {
     /// Whether the greatest level is above 1 and below 2: no vertex stands at a centre.
     #[must_use]
     pub fn below_two(&self) -> bool {
         self.0[4] == 3
-    }
-
-    /// Vertices in all, at most 16641.
-    #[must_use]
-    pub fn vertices(&self) -> usize {
-        let [columns, rows] = self.interior();
-        self.boundary() + columns * rows
-    }
-
-    /// Triangles: by Euler's formula two an interior vertex and one a boundary vertex, less two.
-    #[must_use]
-    pub fn triangles(&self) -> usize {
-        2 * self.vertices() - self.boundary() - 2
-    }
-
-    /// Numbers of the first boundary vertex of each edge, counter-clockwise from (0, 0), and then
-    /// of the first interior vertex: the patch's numbering of vertices is by this order,
-    /// interior row by row.
-    #[must_use]
-    pub fn starts(&self) -> [usize; 5] {
-        let mut starts = [0; 5];
-        for edge in 0..4 {
-            starts[edge + 1] = starts[edge] + self.edge(edge);
-        }
-        starts
     }
 }

@@ -9,28 +9,26 @@ mod degenerate;
 mod schedule;
 
 use crate::patch::Triangle;
-use crate::place::Placement;
-use crate::strip::{Segments, strips};
+use crate::strip::{Segments, Topology};
 
 pub use degenerate::Degenerate;
 pub use schedule::Schedule;
 
 /// The block, which keeps the triangles of its last patch: the next one has the same where its
-/// lists have as many segments, for topology depends on nothing else.
+/// lists are alike (fractional ones: have as many segments), for topology depends on nothing else.
 #[derive(Clone, Debug, Default)]
-pub struct Stitch {
-    segments: Option<Segments>,
+pub struct Stitch<T = Segments> {
+    lists: Option<T>,
     triangles: Vec<Triangle>,
 }
 
-impl Stitch {
-    /// Stitches a patch.
-    pub fn accept(&mut self, placement: &Placement) -> &[Triangle] {
-        let segments = placement.segments();
-        if self.segments != Some(segments) {
-            self.segments = Some(segments);
+impl<T: Topology> Stitch<T> {
+    /// Stitches a patch with these lists.
+    pub fn accept(&mut self, lists: T) -> &[Triangle] {
+        if self.lists != Some(lists) {
+            self.lists = Some(lists);
             self.triangles.clear();
-            accept(placement, &mut self.triangles);
+            accept(lists, &mut self.triangles);
         }
         &self.triangles
     }
@@ -43,12 +41,11 @@ impl Stitch {
 }
 
 /// Appends the triangles of a patch to `out`: the interior grid's, then side by side.
-pub fn accept(placement: &Placement, out: &mut Vec<Triangle>) {
-    let segments = placement.segments();
+pub fn accept(lists: impl Topology, out: &mut Vec<Triangle>) {
     let start = out.len();
-    out.resize(start + segments.triangles(), [0; 3]);
+    out.resize(start + lists.triangles(), [0; 3]);
     let mut out = &mut out[start..];
-    for strip in strips(segments) {
+    for strip in lists.strips() {
         let (now, later) = std::mem::take(&mut out).split_at_mut(strip.count() as usize);
         strip.fill(now);
         out = later;

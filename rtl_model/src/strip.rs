@@ -1,8 +1,8 @@
-//! Strip: two rows of a patch's vertices and what joins them. Segment counts in, strips out: the
+//! Strip: two rows of a patch's vertices and what joins them. A patch's lists in, strips out: the
 //! tokens between evaluate and stitch.
 //!
 //! Moreton 2001, section 5.1: what lies between two rows is stitched while they are at hand, with
-//! nothing kept but two vertices and an error. There are two kinds of walk:
+//! nothing kept but two vertices and an error. There are three kinds of walk:
 //!
 //! ```text
 //!   cells        inner  d───c───┬───┬───┐     a row of the interior grid, which is regular;
@@ -12,6 +12,10 @@
 //!   Bresenham    outer  o───o─────o─────o     half of a side, from a corner to the middle:
 //!                       │ ╲ │  ╲ ╱ ╲    │     n segments of the edge,
 //!                inner  i─────i─────────i     m of the interior's first row or column
+//!
+//!   zipper       outer  o─o─o───o───────o     a whole side between dyadic lists, from its lower
+//!                       │  ╲│  ╱ ╲   ╱  │     end: the row whose next parameter is the smaller
+//!                inner  i───i───────i───i     advances, the outer one of two that tie
 //! ```
 //!
 //! Bresenham: of the outer row's next segment and the inner row's, the one whose midpoint comes
@@ -20,10 +24,21 @@
 //! needs a special case; the segment across an edge's centre (levels below 2) is a strip of one
 //! outer segment and of as many inner ones as there are. A patch of level 1 is a cell.
 //!
+//! Zipper (Sfarti et al. 2005, section 6; what it does is ours): a merge of two ascending lists,
+//! which is decided from the lists' masks. So a strip carries the decisions, a bit a triangle, and
+//! a side of more than 64 triangles is several strips.
+//!
 //! Triangles are counter-clockwise with u right and v up. Half 1 of a side, and the sides v1 and
 //! u0, are walked mirrored, so they swap two vertices.
 
+mod dyadic;
+mod fractional;
+mod rows;
+
 use crate::patch::Triangle;
+use crate::place::Numbering;
+use std::fmt;
+
 pub use crate::place::Segments;
 
 /// How the two rows are joined.
@@ -37,6 +52,11 @@ pub enum Kind {
     },
     /// A walk that puts each triangle where the next segment's midpoint is.
     Bresenham,
+    /// A walk that is told which row advances.
+    Zipper {
+        /// Bit k: triangle k stands on the inner row. A strip has at most 64 triangles.
+        steps: u64,
+    },
 }
 
 /// Vertices at equal distances in the patch's numbering.
@@ -113,6 +133,11 @@ impl Strip {
             let (before, after) = pairs.split_at_mut(usize::from(cells.div_ceil(2)));
             self.cells(0, lower, before);
             self.cells(cells.div_ceil(2).into(), !lower, after);
+        } else if let Kind::Zipper { steps } = self.kind {
+            let mut walk = self.triangles();
+            for (k, triangle) in out.iter_mut().enumerate() {
+                *triangle = walk.on(steps >> k & 1 != 0);
+            }
         } else {
             let mut walk = self.triangles();
             out.iter_mut().for_each(|triangle| *triangle = walk.step());
@@ -122,9 +147,16 @@ impl Strip {
     /// Hands its triangles to `take`, in order: as [`Self::triangles`], and faster.
     #[inline]
     pub fn for_each(&self, mut take: impl FnMut(Triangle)) {
-        let Kind::Cells { lower } = self.kind else {
-            let mut walk = self.triangles();
-            return (0..self.count()).for_each(|_| take(walk.step()));
+        let lower = match self.kind {
+            Kind::Cells { lower } => lower,
+            Kind::Bresenham => {
+                let mut walk = self.triangles();
+                return (0..self.count()).for_each(|_| take(walk.step()));
+            }
+            Kind::Zipper { steps } => {
+                let mut walk = self.triangles();
+                return (0..self.count()).for_each(|k| take(walk.on(steps >> k & 1 != 0)));
+            }
         };
         let cells = u16::from(self.outer_segments);
         for k in 0..cells {
@@ -175,15 +207,25 @@ impl Triangles {
 
     #[inline(always)]
     fn step(&mut self) -> Triangle {
+        let advances = self.error >= 0;
+        self.error += if advances {
+            -2 * i16::from(self.strip.outer_segments)
+        } else {
+            2 * i16::from(self.strip.inner_segments)
+        };
+        self.on(advances)
+    }
+
+    /// The triangle on the inner row's next segment, or on the outer one's.
+    #[inline(always)]
+    fn on(&mut self, inner_advances: bool) -> Triangle {
         let Strip { outer, inner, end, .. } = self.strip;
         // Only the first vertex of a row can be the end: no walk goes on to the far corner.
         let (o, i) = (if outer.first == end { 0 } else { outer.first }, inner.first);
-        let [a, b, c] = if self.error >= 0 {
-            self.error -= 2 * i16::from(self.strip.outer_segments);
+        let [a, b, c] = if inner_advances {
             self.strip.inner = inner.next();
             [i, o, self.strip.inner.first]
         } else {
-            self.error += 2 * i16::from(self.strip.inner_segments);
             self.strip.outer = outer.next();
             [o, self.strip.outer.first, i]
         };
@@ -202,6 +244,10 @@ impl Iterator for Triangles {
         let triangle = match self.strip.kind {
             Kind::Cells { lower } => self.cell(lower),
             Kind::Bresenham => self.step(),
+            Kind::Zipper { steps } => {
+                let made = self.strip.count() - u32::from(self.left);
+                self.on(steps >> made & 1 != 0)
+            }
         };
         self.left -= 1;
         Some(triangle)
@@ -214,176 +260,19 @@ impl Iterator for Triangles {
 
 impl ExactSizeIterator for Triangles {}
 
-/// The strips of a patch: the rows of the interior grid, then for each side half 0, half 1 and the
-/// segment across the centre, as far as they have triangles.
-#[must_use]
-pub fn strips(segments: Segments) -> Strips {
-    Strips { patch: Patch::new(segments), count: strip_count(segments), made: 0, part: 0 }
-}
+/// A patch's lists, as far as its triangles depend on them: all that there is between them.
+pub trait Topology: Numbering + Copy + Default + Eq + Send + Sync + fmt::Debug {
+    /// The strips, in order.
+    type Strips: ExactSizeIterator<Item = Strip>;
 
-/// The strips of a patch, in order.
-#[derive(Clone, Debug)]
-pub struct Strips {
-    patch: Patch,
-    count: usize,
-    made: usize,
-    /// The side's part that comes next: three a side.
-    part: usize,
-}
+    /// The strips of the patch: the rows of the interior grid, then side by side.
+    #[must_use]
+    fn strips(self) -> Self::Strips;
 
-impl Iterator for Strips {
-    type Item = Strip;
-
-    #[inline]
-    fn next(&mut self) -> Option<Strip> {
-        let Self { patch, count, made, .. } = *self;
-        if made == count {
-            return None;
-        }
-        let mut strip = if patch.columns == 0 {
-            patch.whole()
-        } else if made < patch.grid_strips() {
-            patch.grid(made)
-        } else {
-            loop {
-                let part = self.part;
-                self.part += 1;
-                if let Some(strip) = patch.side(part / 3, part % 3) {
-                    break strip;
-                }
-            }
-        };
-        self.made += 1;
-        (strip.first, strip.last) = (made == 0, made + 1 == count);
-        Some(strip)
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.count - self.made, Some(self.count - self.made))
-    }
-}
-
-impl ExactSizeIterator for Strips {}
-
-/// How many strips a patch has: 1 where every level is 1, else 4 to 138.
-#[must_use]
-pub fn strip_count(segments: Segments) -> usize {
-    let patch = Patch::new(segments);
-    if patch.columns == 0 {
-        return 1;
-    }
-    let side = |side| {
-        let halves = if patch.outer_half(side) + patch.inner_half(side) > 0 { 2 } else { 0 };
-        halves + segments.edge(side) % 2
-    };
-    patch.grid_strips() + (0..4).map(side).sum::<usize>()
-}
-
-/// Where the rows of a patch are.
-#[derive(Clone, Copy, Debug)]
-struct Patch {
-    segments: Segments,
-    starts: [usize; 5],
-    columns: usize,
-    rows: usize,
-}
-
-impl Patch {
-    fn new(segments: Segments) -> Self {
-        let [columns, rows] = segments.interior();
-        Self { segments, starts: segments.starts(), columns, rows }
-    }
-
-    fn interior(&self, column: usize, row: usize) -> u16 {
-        (self.starts[4] + row * self.columns + column) as u16
-    }
-
-    /// Rows of interior cells, where there are any.
-    fn grid_strips(&self) -> usize {
-        if self.columns < 2 { 0 } else { self.rows - 1 }
-    }
-
-    /// A strip that stands alone and needs no interior row.
-    fn strip(kind: Kind, outer: Row, inner: Row, [n, m]: [usize; 2]) -> Strip {
-        Strip {
-            kind,
-            outer,
-            inner,
-            outer_segments: n as u8,
-            inner_segments: m as u8,
-            mirrored: false,
-            end: 0,
-            rows_needed: 0,
-            first: true,
-            last: true,
-        }
-    }
-
-    /// A patch of level 1: the cell of its corners.
-    fn whole(&self) -> Strip {
-        let (outer, inner) = (Row { first: 0, step: 1 }, Row { first: 3, step: -1 });
-        Self::strip(Kind::Cells { lower: true }, outer, inner, [1, 1])
-    }
-
-    /// The cells between interior rows `row` and `row + 1`.
-    fn grid(&self, row: usize) -> Strip {
-        let [outer, inner] = [row, row + 1].map(|j| Row { first: self.interior(0, j), step: 1 });
-        let kind = Kind::Cells { lower: 2 * row < self.rows - 1 };
-        let strip = Self::strip(kind, outer, inner, [self.columns - 1; 2]);
-        Strip { rows_needed: row as u8 + 2, ..strip }
-    }
-
-    /// Half 0 or 1 of a side, or (2) the segment across its centre. That one's diagonal starts at
-    /// the end that lies at (0, 0) or (1, 1).
-    #[inline]
-    fn side(&self, side: usize, part: usize) -> Option<Strip> {
-        let (n, m) = (self.outer_half(side), self.inner_half(side));
-        let mirrored = |end| (side >= 2) != (end == 1);
-        let strip = |end, outer, inner, segments| Strip {
-            mirrored: mirrored(end),
-            end: self.starts[4] as u16,
-            rows_needed: self.rows as u8,
-            ..Self::strip(Kind::Bresenham, outer, inner, segments)
-        };
-        if part < 2 {
-            let (outer, inner) = (self.outer(side, part), self.inner(side, part));
-            return (n + m > 0).then(|| strip(part, outer, inner, [n, m]));
-        }
-        let end = usize::from(side == 1 || side == 2);
-        let (outer, inner) = (self.outer(side, end).from(n), self.inner(side, end).from(m));
-        let segments = [1, self.segments.below_two().into()];
-        (self.segments.edge(side) % 2 == 1).then(|| strip(end, outer, inner, segments))
-    }
-
-    /// Segments of half an edge, not counting one across its centre.
-    fn outer_half(&self, side: usize) -> usize {
-        self.segments.edge(side) / 2
-    }
-
-    /// Segments of half an interior row, or column, along a side.
-    fn inner_half(&self, side: usize) -> usize {
-        let along = if side.is_multiple_of(2) { self.columns } else { self.rows };
-        if self.segments.below_two() { 0 } else { (along - 1) / 2 }
-    }
-
-    /// The boundary vertices of a side, from one of its ends.
-    fn outer(&self, side: usize, end: usize) -> Row {
-        // v1 and u0 run against the numbering, which ends where it began: at vertex 0.
-        if (side < 2) == (end == 0) {
-            Row { first: self.starts[side] as u16, step: 1 }
-        } else {
-            Row { first: self.starts[side + 1] as u16, step: -1 }
-        }
-    }
-
-    /// The interior's vertices along a side, from one of its ends.
-    fn inner(&self, side: usize, end: usize) -> Row {
-        let (along, beside) = (end == 1, side == 1 || side == 2);
-        let (right, top) = if side.is_multiple_of(2) { (along, beside) } else { (beside, along) };
-        let column = if right { self.columns - 1 } else { 0 };
-        let row = if top { self.rows - 1 } else { 0 };
-        let step = if side.is_multiple_of(2) { 1 } else { self.columns as i16 };
-        Row { first: self.interior(column, row), step: if end == 0 { step } else { -step } }
+    /// How many strips there are.
+    #[must_use]
+    fn strip_count(self) -> usize {
+        self.strips().len()
     }
 }
 

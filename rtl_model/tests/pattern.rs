@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use rtl_model::patch::{Level, Levels, ONE, Triangle};
-use rtl_model::place::Placement;
+use rtl_model::place::{Numbering, Parameters, Placement};
 use rtl_model::stitch;
 use std::collections::HashMap;
 
@@ -28,7 +28,7 @@ fn pattern(edges: [u32; 4], interior: [u32; 2]) -> (Placement, Vec<[u32; 2]>, Ve
         }
     }
     let mut triangles = Vec::new();
-    stitch::accept(&placement, &mut triangles);
+    stitch::accept(placement.segments(), &mut triangles);
     (placement, points, triangles)
 }
 
@@ -225,7 +225,7 @@ proptest! {
         let mut stitch = stitch::Stitch::default();
         for e in levels {
             let (placement, _, fresh) = pattern(e, across(e));
-            prop_assert_eq!(stitch.accept(&placement), &fresh[..]);
+            prop_assert_eq!(stitch.accept(placement.segments()), &fresh[..]);
         }
     }
 }

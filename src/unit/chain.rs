@@ -12,6 +12,7 @@ use crate::link::wire::Wire;
 use rtl_model::counter::Block as Name;
 use rtl_model::level;
 use rtl_model::patch::Triangle;
+use rtl_model::place::Numbering;
 use rtl_model::strip::{Segments, Strip};
 use rtl_model::time::{Block, Cost, Emit, Shape, Visitor};
 use rtl_model::{emit, evaluate, stitch};

@@ -13,9 +13,9 @@ use rtl_model::emit::Screen;
 use rtl_model::evaluate::Evaluate;
 use rtl_model::number::Format;
 use rtl_model::patch::{Level, Patch, Triangle, Vertex, View};
-use rtl_model::place::Placement;
+use rtl_model::place::{Numbering, Placement};
 use rtl_model::stitch::{Degenerate, Stitch};
-use rtl_model::strip::strip_count;
+use rtl_model::strip::Topology;
 use rtl_model::{backface, clip, emit, evaluate, level};
 
 /// The blocks of one pipeline and what they made of the patch before.
@@ -116,12 +116,12 @@ impl<'a> Pipeline<'a> {
     /// Evaluate and stitch.
     fn shape(&mut self, patch: &Patch) {
         let cost = self.evaluate.accept(patch, &self.placement, &mut self.vertices);
-        let triangles = self.stitch.accept(&self.placement);
+        let triangles = self.stitch.accept(self.placement.segments());
         let degenerate = self.degenerate.count(&self.placement, &self.vertices, triangles);
         let counters = &mut self.counters;
         counters.add(Counter::EvaluateInvocations, cost.invocations);
         counters.add(Counter::EvaluateVertices, self.vertices.len() as u64);
-        counters.add(Counter::EvaluateStrips, strip_count(self.work.segments) as u64);
+        counters.add(Counter::EvaluateStrips, self.work.segments.strip_count() as u64);
         counters.add(Counter::EvaluateCurves, cost.curves);
         counters.add(Counter::EvaluateSteps, cost.steps);
         counters.add(Counter::EvaluateOverflows, cost.overflows);

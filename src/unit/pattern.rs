@@ -1,7 +1,7 @@
 //! A tessellation pattern by itself: parameters and triangles, no surface.
 
 use rtl_model::patch::{Level, Levels, ONE, Triangle};
-use rtl_model::place::Placement;
+use rtl_model::place::{Numbering, Parameters, Placement};
 use rtl_model::stitch;
 
 /// A pattern on the unit square.
@@ -37,6 +37,6 @@ pub fn fractional_quad(edges: [Level; 4], interior: [Option<Level>; 2]) -> Patte
         *point = parameters;
     }
     let mut triangles = Vec::new();
-    stitch::accept(&placement, &mut triangles);
+    stitch::accept(placement.segments(), &mut triangles);
     Pattern { points, triangles }
 }

@@ -9,7 +9,7 @@ use rtl_model::backface::{self, Verdict};
 use rtl_model::evaluate::{Evaluate, Settings};
 use rtl_model::number::{Format, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch};
 use rtl_model::patch::{EDGES, Levels, ONE, Patch, Triangle, Vertex, View};
-use rtl_model::place::Placement;
+use rtl_model::place::{Numbering, Parameters, Placement};
 use rtl_model::stitch::{Degenerate, Stitch};
 use rtl_model::{clip, emit, port};
 use tessim::config::{BackfaceMethod, Scheme};
@@ -144,7 +144,7 @@ pub(crate) fn stitch(
     placement: &Placement,
     placed: &golden::place::Placed,
 ) -> Vec<Triangle> {
-    let triangles = Stitch::default().accept(placement).to_vec();
+    let triangles = Stitch::default().accept(placement.segments()).to_vec();
     let numbers = triangles.iter().map(|t| t.map(usize::from)).collect();
     let got = golden::stitch::canonical(numbers);
     ledger.equal(Q::StitchTriangles, got, golden::stitch::triangles(placed));

@@ -4,7 +4,6 @@
 
 use crate::number::{RoundingMode, lerp};
 use crate::patch::Point;
-use crate::place::List;
 
 use super::Slot;
 
@@ -24,14 +23,14 @@ pub(super) fn triangle<R: RoundingMode>([a, b, c, d]: &[Point; 4], t: u32) -> [P
     [abc, bcd, mix(&abc, &bcd)]
 }
 
-/// Evaluates the list's inner entries; `out` has a place for each. Returns half-runs (none) and
+/// Evaluates at a list's inner entries; `out` has a place for each. Returns half-runs (none) and
 /// points evaluated.
 pub(super) fn run<R: RoundingMode, S: Slot>(
     curve: &[Point; 4],
-    list: &List,
+    parameters: &[u32],
     out: &mut [S],
 ) -> (u64, u64) {
-    for (slot, &t) in out.iter_mut().zip(&list.parameters()[1..]) {
+    for (slot, &t) in out.iter_mut().zip(&parameters[1..]) {
         slot.put(curve_point::<R>(curve, t));
     }
     (0, out.len() as u64)

@@ -13,7 +13,7 @@
 //! De Casteljau has nothing to set up: its points come out of a pipeline of linear interpolations.
 
 use super::Scheme;
-use crate::strip::{Segments, Strip, strips};
+use crate::strip::{Strip, Topology};
 use crate::time::{Cost, Emit};
 
 /// What evaluation costs, in cycles.
@@ -31,17 +31,17 @@ pub struct Schedule {
 
 impl Schedule {
     /// Emits the strips of a patch, each when its rows are complete.
-    pub fn accept(&self, segments: Segments, out: &mut impl Emit<Strip>) -> Cost {
-        let boundary = (0..4).map(|edge| self.edge(segments.edge(edge))).sum::<u64>();
-        let [columns, rows] = segments.interior();
+    pub fn accept(&self, lists: impl Topology, out: &mut impl Emit<Strip>) -> Cost {
+        let boundary = (0..4).map(|edge| self.edge(lists.edge(edge))).sum::<u64>();
+        let [columns, rows] = lists.interior();
         let differences = self.scheme == Scheme::Forward;
-        // At level 1 there is no interior, and neither columns nor rows.
+        // Without an interior there are neither columns nor rows.
         let column = if columns > 0 { 4 * self.curve(rows, differences) } else { 0 };
         let row = self.curve(columns, differences);
-        // Levels are 1 throughout, or no edge is without interior rows to wait for.
+        // A patch is either without an interior, or no edge is without interior rows to wait for.
         let first = if self.scheme == Scheme::DeCasteljau { 0 } else { u64::from(self.setup) };
         let before = first + u64::from(self.latency);
-        for strip in strips(segments) {
+        for strip in lists.strips() {
             let complete = match u64::from(strip.rows_needed) {
                 0 => boundary,
                 rows => boundary + column + rows * row,

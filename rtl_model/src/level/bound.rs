@@ -10,8 +10,10 @@ use crate::patch::EDGES;
 const SLACK: u128 = 3;
 
 /// Lines of the net: rows along u, columns along v.
-const ROWS: [[usize; 4]; 4] = [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11], [12, 13, 14, 15]];
-const COLUMNS: [[usize; 4]; 4] = [[0, 4, 8, 12], [1, 5, 9, 13], [2, 6, 10, 14], [3, 7, 11, 15]];
+pub(super) const ROWS: [[usize; 4]; 4] =
+    [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11], [12, 13, 14, 15]];
+pub(super) const COLUMNS: [[usize; 4]; 4] =
+    [[0, 4, 8, 12], [1, 5, 9, 13], [2, 6, 10, 14], [3, 7, 11, 15]];
 
 /// Lengths of control polygons over `pixels` (UQ16.16).
 pub(super) fn edge_length(points: &[Pixel; 16], pixels: u32) -> Asked {

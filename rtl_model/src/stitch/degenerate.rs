@@ -2,7 +2,7 @@
 //! counted.
 
 use crate::patch::{Triangle, Vertex};
-use crate::place::Placement;
+use crate::place::Numbering;
 
 /// The counter and its store.
 ///
@@ -19,7 +19,7 @@ impl Degenerate {
     /// positions.
     pub fn count(
         &mut self,
-        placement: &Placement,
+        placement: &impl Numbering,
         vertices: &[Vertex],
         triangles: &[Triangle],
     ) -> u64 {
@@ -38,7 +38,7 @@ impl Degenerate {
 
     /// Whether two neighbours of the interior grid might be equal: along a row, a column or either
     /// diagonal.
-    fn neighbours_agree(&mut self, placement: &Placement, vertices: &[Vertex]) -> bool {
+    fn neighbours_agree(&mut self, placement: &impl Numbering, vertices: &[Vertex]) -> bool {
         let interior = &vertices[placement.boundary()..];
         self.fingerprints.clear();
         self.fingerprints.extend(interior.iter().map(|vertex| {

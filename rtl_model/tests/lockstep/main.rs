@@ -15,7 +15,7 @@ mod verilated;
 use reference::{Run, times};
 use rtl_model::patch::{Level, Levels};
 use rtl_model::place::Placement;
-use rtl_model::strip::strips;
+use rtl_model::strip::Topology;
 
 #[cfg(not(verilated))]
 #[test]
@@ -31,7 +31,7 @@ fn the_reference_keeps_the_rules_by_hand() {
     placement.set(&Levels { edges: [Level::MIN; 4], interior: [Level::TWO; 2] });
     let run = |source: &[u8], sink: &[u8], depth| {
         let cycles = |willing: &[u8]| willing.iter().map(|&w| w == b'+').collect();
-        let strips = strips(placement.segments()).collect();
+        let strips = placement.segments().strips().collect();
         let times = times(&Run { strips, source: cycles(source), sink: cycles(sink), depth });
         let emitted: Vec<usize> = times.emitted.iter().map(|&(cycle, _)| cycle).collect();
         (times.accepted, emitted)

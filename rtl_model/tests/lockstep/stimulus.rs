@@ -3,7 +3,7 @@
 use crate::reference::Run;
 use rtl_model::patch::{Level, Levels, ONE};
 use rtl_model::place::Placement;
-use rtl_model::strip::{Strip, strips};
+use rtl_model::strip::{Strip, Topology};
 
 /// Random numbers (splitmix64), the same on every machine.
 pub(crate) struct Random(pub(crate) u64);
@@ -53,7 +53,7 @@ impl Random {
         };
         let mut placement = Placement::default();
         placement.set(&levels);
-        let all: Vec<Strip> = strips(placement.segments()).collect();
+        let all: Vec<Strip> = placement.segments().strips().collect();
         for _ in 0..repeat {
             out.extend(&all);
         }
