@@ -19,6 +19,7 @@ pub use block::{BackfaceCosts, BlockCosts, Blocks, EvaluateCosts};
 pub use link::{Bus, Channels, Link, Memory, TransferMode};
 pub use rtl_model::backface::Method as BackfaceMethod;
 pub use rtl_model::evaluate::{Normals, Scheme};
+pub use rtl_model::level::Termination;
 pub use rtl_model::number::{Overflow, Rounding};
 pub use rtl_model::time::{Frames, LaneOrder};
 
@@ -34,6 +35,38 @@ pub enum Unit {
     Hybrid,
     /// The host tessellates: the same triangles, but vertices and indices cross the link.
     Triangles,
+    /// Sfarti's unit: midpoint subdivision, de Casteljau, zippers.
+    Sfarti,
+    /// GeForce3's: before transform, with levels from the driver, and no culling.
+    Moreton,
+}
+
+impl Unit {
+    /// All of them, the default first.
+    pub const ALL: [Self; 4] = [Self::Hybrid, Self::Triangles, Self::Sfarti, Self::Moreton];
+
+    /// The name in configurations and reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hybrid => "hybrid",
+            Self::Triangles => "triangles",
+            Self::Sfarti => "sfarti",
+            Self::Moreton => "moreton",
+        }
+    }
+
+    /// Whether the host tessellates, and vertices cross the link.
+    #[must_use]
+    pub const fn host_tessellates(self) -> bool {
+        matches!(self, Self::Triangles)
+    }
+
+    /// Whether the unit works in object space, and a vertex program transforms what leaves it.
+    #[must_use]
+    pub const fn in_object_space(self) -> bool {
+        matches!(self, Self::Moreton)
+    }
 }
 
 /// Which engine lays time over the blocks.
@@ -124,6 +157,9 @@ pub struct Position {
     /// when absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clip_range_log2: Option<i32>,
+    /// log2 of the largest magnitude in object space, where the trace's `range` does not say
+    /// (unit `moreton`).
+    pub object_range_log2: i32,
 }
 
 /// Primitives to patches.
@@ -147,7 +183,7 @@ pub struct Attributes {
 }
 
 /// Levels. Absent: as the trace says.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Level {
     /// Overrides the trace's criterion.
@@ -169,6 +205,8 @@ pub struct Level {
     /// absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near: Option<f64>,
+    /// When midpoint subdivision ends (unit `sfarti`).
+    pub termination: Termination,
 }
 
 /// The criterion's name; its number stands beside it.
@@ -286,6 +324,21 @@ impl Default for Position {
             rounding: Rounding::NearestEven,
             overflow: Overflow::Saturate,
             clip_range_log2: None,
+            object_range_log2: 4,
+        }
+    }
+}
+
+impl Default for Level {
+    fn default() -> Self {
+        Self {
+            criterion: None,
+            pixels: None,
+            level: None,
+            min_level: None,
+            max_level: None,
+            near: None,
+            termination: Termination::EightCurves,
         }
     }
 }
@@ -368,13 +421,31 @@ impl Config {
         self.evaluate.guard.unwrap_or(20.min(room))
     }
 
+    /// How points are computed: as configured, but in unit `sfarti`, whose lists are not walked in
+    /// equal steps, always by de Casteljau.
+    #[must_use]
+    pub fn scheme(&self) -> Scheme {
+        match self.unit {
+            Unit::Sfarti => Scheme::DeCasteljau,
+            _ => self.evaluate.scheme,
+        }
+    }
+
+    /// Whether the unit divides by w: not where its vertices are still to be transformed.
+    #[must_use]
+    pub fn divides(&self) -> bool {
+        self.emit.divide && !self.unit.in_object_space()
+    }
+
     /// The same configuration with what it leaves to be derived from itself written out:
-    /// `evaluate.guard`, and `level.criterion` where only its number was given. A bus whose numbers
+    /// `evaluate.guard`, what the unit does whatever is set, and `level.criterion` where only its number was given. A bus whose numbers
     /// were changed is named no more.
     #[must_use]
     pub fn effective(&self) -> Self {
         let mut effective = self.clone();
         effective.evaluate.guard = Some(self.guard());
+        effective.evaluate.scheme = self.scheme();
+        effective.emit.divide = self.divides();
         effective.level.criterion = self.level.chosen();
         effective.link.bus = self.link.bus();
         effective
@@ -391,5 +462,18 @@ impl Level {
             (Some(_), None) => Some(Criterion::Flatness),
             (None, None) => None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_named_as_in_the_configuration() {
+        for unit in Unit::ALL {
+            let printed = toml::Value::try_from(unit).expect("plain data");
+            assert_eq!(printed.as_str(), Some(unit.name()));
+        }
     }
 }

@@ -10,14 +10,12 @@ use rtl_model::patch::{Triangle, Vertex, View};
 pub struct FrameInfo {
     /// Number from 0.
     pub number: u64,
-    /// Format, viewport, depth range.
+    /// Format of the mesh's positions, viewport, depth range.
     pub view: View,
-    /// Takes a position of the mesh, homogeneous and in real units, to world space: column-major.
-    pub to_world: [f64; 16],
 }
 
 /// What a unit made of one patch.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct PatchMesh<'a> {
     /// Number of the patch within its frame, before culling, in draw order.
     pub patch: u32,
@@ -29,10 +27,29 @@ pub struct PatchMesh<'a> {
     pub screen: &'a [Screen],
     /// Triangles over `vertices`.
     pub triangles: &'a [Triangle],
+    /// Takes a position of the mesh, homogeneous and in real units, to world space: column-major.
+    pub to_world: &'a [f64; 16],
     /// What each vertex has besides, in order; nothing where the draw has no attributes.
     pub layout: &'a [Attribute],
     /// Components of attributes, vertex after vertex, raw in the configured attribute format.
     pub attributes: &'a [i64],
+}
+
+impl Default for PatchMesh<'_> {
+    /// No mesh at all, in a world that is its own space.
+    fn default() -> Self {
+        const SAME: &[f64; 16] = &[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
+        Self {
+            patch: 0,
+            reversed: false,
+            vertices: &[],
+            screen: &[],
+            triangles: &[],
+            to_world: SAME,
+            layout: &[],
+            attributes: &[],
+        }
+    }
 }
 
 /// A consumer of meshes. Patches arrive in draw order, whatever the number of threads.

@@ -142,6 +142,7 @@ counters! {
         LinkMatrices "bytes.matrices" Bytes "matrices, 64 bytes each: view and projection of a frame, model or instances of a draw", "";
         LinkControlPoints "bytes.control_points" Bytes "control points, 12 bytes (xyz) or 16 (xyzw), where their command stands", "";
         LinkAttributes "bytes.attributes" Bytes "attributes of corners, each component by its format, where their command stands", "";
+        LinkFactors "bytes.factors" Bytes "levels of patches' edges that the driver chose: 4 floats a patch (unit `moreton`)", "= 16 x trace patches, or 0";
         LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`)", "";
         LinkIndices "bytes.indices" Bytes "indices of indexed meshes, 2 or 4 bytes each: 16 a patch, and 4 of its corners' attributes; in unit `triangles` those of triangles, 2 bytes, or 4 where a draw has more than 65536 vertices", "";
         LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload; under pull for each completion of its reads", "";

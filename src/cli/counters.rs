@@ -53,7 +53,7 @@ fn entries() -> Vec<Entry> {
             pieces: Vec::new(),
         })
         .collect();
-    for unit in [Unit::Hybrid, Unit::Triangles] {
+    for unit in Unit::ALL {
         let mut chain = chain(&Config { unit, ..Config::default() });
         for stage in &mut chain {
             // Any block may have more than one lane.

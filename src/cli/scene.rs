@@ -116,7 +116,14 @@ impl Levels {
     fn tessellation(&self) -> Result<Tessellation> {
         let default = Tessellation::default();
         let &Self { criterion, pixels, level, min_level, max_level } = self;
-        let level = config::Level { criterion, pixels, level, min_level, max_level, near: None };
+        let level = config::Level {
+            criterion,
+            pixels,
+            level,
+            min_level,
+            max_level,
+            ..config::Level::default()
+        };
         // A trace has bounds even where it does not state them.
         let bounds = config::Level {
             min_level: Some(min_level.unwrap_or(1.0)),

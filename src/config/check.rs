@@ -59,6 +59,7 @@ impl Config {
             // The exponents of normal f32 numbers: nothing larger can come out of the shader.
             within("position.clip_range_log2", log2, -126, 127)?;
         }
+        within("position.object_range_log2", self.position.object_range_log2, -126, 127)?;
         let guard = self.guard();
         if guard < 1 || width.saturating_add(guard).saturating_add(3) > 63 {
             return Err(Problem::found("evaluate.guard", guard_found(guard, width)));

@@ -31,7 +31,7 @@ const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 pub const KEYS: &[Key] = &join::<{ PLAIN.len() + block::KEYS.len() }>(PLAIN, block::KEYS);
 
 const PLAIN: &[Key] = &[
-    key("unit", "the unit that runs", "hybrid or triangles"),
+    key("unit", "the unit that runs", "hybrid, triangles, sfarti or moreton"),
     key("engine", "what lays time over the blocks", "timed, stepped or none"),
     key("clock_mhz", "the clock in MHz; every number of cycles is one of this clock", "1..=100000"),
     key("frames", "whether a frame waits until the one before has left", "drain or overlap"),
@@ -47,6 +47,12 @@ const PLAIN: &[Key] = &[
         "log2 of the largest magnitude that the port expects in clip space",
         "-126..=127",
         ("4", "the trace's range, else the largest w on the far plane"),
+    ),
+    key(
+        "position.object_range_log2",
+        "log2 of the largest magnitude that the port expects in object space, where the trace's \
+         range does not say (unit moreton)",
+        "-126..=127",
     ),
     key(
         "assemble.cache_entries",
@@ -89,9 +95,19 @@ const PLAIN: &[Key] = &[
         "a number > 0",
         ("0.1", "w on the near plane"),
     ),
+    key(
+        "level.termination",
+        "when midpoint subdivision by flatness ends: when each of eight curves is flat, or by the \
+         bound of the surface (unit sfarti)",
+        "eight_curves or bounded",
+    ),
     key("clip.enabled", "remove patches wholly outside one clip plane", "true or false"),
     key("backface.method", "the back-face test", "off, net_facets or tangent_plane"),
-    key("evaluate.scheme", "how points are computed", "forward, mixed or de_casteljau"),
+    key(
+        "evaluate.scheme",
+        "how points are computed; unit sfarti: always de_casteljau",
+        "forward, mixed or de_casteljau",
+    ),
     optional(
         "evaluate.guard",
         "guard bits of the forward-difference accumulators",
@@ -107,7 +123,11 @@ const PLAIN: &[Key] = &[
         "0..=45, less than attributes.width",
     ),
     key("attributes.rounding", "how attributes are rounded", ROUNDING),
-    key("emit.divide", "divide by w and snap to the sub-pixel grid", "true or false"),
+    key(
+        "emit.divide",
+        "divide by w and snap to the sub-pixel grid; unit moreton: never",
+        "true or false",
+    ),
     key("emit.subpixel_bits", "fraction bits of a screen coordinate", "0..=12"),
     key("emit.rounding", "how a screen coordinate is rounded", ROUNDING),
     key("emit.vertex_bytes", "bytes of a vertex record that leaves the unit", "1..=65536"),

@@ -9,7 +9,7 @@ pub mod framing;
 pub mod schedule;
 pub mod wire;
 
-use crate::config::{Config, Link, Memory};
+use crate::config::{Config, Link, Memory, Unit};
 use crate::trace::command::{Attributes, Command, Draw, Points};
 use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
@@ -20,6 +20,8 @@ const COMMAND: u64 = 8;
 const MATRIX: u64 = 64;
 /// Bytes of a float.
 const FLOAT: u64 = 4;
+/// Levels of a patch that cross the link, where the driver chooses them (GL_NV_evaluators).
+const FACTORS: u64 = 4;
 /// Most vertices that 2-byte indices reach.
 const SHORT_INDEX_MAX: u64 = 1 << 16;
 
@@ -34,6 +36,8 @@ pub struct Transfer {
     pub control_points: u64,
     /// Its attributes.
     pub attributes: u64,
+    /// Tessellation levels of its patches' edges (unit `moreton`).
+    pub factors: u64,
     /// Its vertices (unit `triangles`).
     pub vertices: u64,
     /// Its indices: an indexed mesh's, or the triangles' (unit `triangles`).
@@ -44,8 +48,9 @@ impl Transfer {
     /// Bytes of all kinds, without framing.
     #[must_use]
     pub fn payload(&self) -> u64 {
-        let Self { command, matrices, control_points, attributes, vertices, indices } = self;
-        command + matrices + control_points + attributes + vertices + indices
+        let Self { command, matrices, control_points, attributes, factors, vertices, indices } =
+            self;
+        command + matrices + control_points + attributes + factors + vertices + indices
     }
 
     /// Bytes in both directions, with framing and read requests.
@@ -68,6 +73,7 @@ impl Transfer {
         counters.add(Counter::LinkMatrices, self.matrices);
         counters.add(Counter::LinkControlPoints, self.control_points);
         counters.add(Counter::LinkAttributes, self.attributes);
+        counters.add(Counter::LinkFactors, self.factors);
         counters.add(Counter::LinkVertices, self.vertices);
         counters.add(Counter::LinkIndices, self.indices);
         let framed = Framed::of(self.payload(), link);
@@ -77,9 +83,22 @@ impl Transfer {
     }
 }
 
-/// What a command sends to a unit that tessellates.
+/// What a command sends to a unit that tessellates: to one that does not choose its levels itself,
+/// those of each patch's four edges too, and no tessellation state.
 #[must_use]
-pub fn patches(command: &Command) -> Transfer {
+pub fn to(unit: Unit, command: &Command) -> Transfer {
+    let transfer = patches(command);
+    match (unit, command) {
+        (Unit::Moreton, Command::Draw(draw)) => {
+            let patches = draw.primitive.patches() * draw.models.len() as u64;
+            Transfer { factors: patches * FACTORS * FLOAT, ..transfer }
+        }
+        (Unit::Moreton, Command::Tessellation(_)) => Transfer::default(),
+        _ => transfer,
+    }
+}
+
+fn patches(command: &Command) -> Transfer {
     let bare = host(command);
     match command {
         Command::Points(points) => {

@@ -4,7 +4,6 @@
 //! No totals and no rates: whoever needs them can add, and a file that says a thing once cannot
 //! contradict itself.
 
-use crate::config::Unit;
 use crate::report::Report;
 use std::io::Write;
 
@@ -15,7 +14,7 @@ use std::io::Write;
 pub fn write(report: &Report, out: impl Write) -> std::io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(["frame", "unit", "block", "counter", "value", "measure"])?;
-    let unit = unit_name(report.config.unit);
+    let unit = report.config.unit.name();
     for (number, frame) in report.frames.iter().enumerate() {
         let number = number.to_string();
         for row in report.rows(frame) {
@@ -30,15 +29,6 @@ pub fn write(report: &Report, out: impl Write) -> std::io::Result<()> {
         }
     }
     csv.flush()
-}
-
-/// The unit's name in reports: as in the configuration.
-#[must_use]
-pub const fn unit_name(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Hybrid => "hybrid",
-        Unit::Triangles => "triangles",
-    }
 }
 
 #[cfg(test)]
@@ -135,13 +125,5 @@ mod tests {
         let rest: Vec<_> = timed.lines().filter(|row| !of_time(row)).collect();
         assert!(rest.len() + 2 * 10 < timed.lines().count());
         assert_eq!(csv(&untimed).lines().collect::<Vec<_>>(), rest);
-    }
-
-    #[test]
-    fn a_unit_is_named_as_in_the_configuration() {
-        for unit in [Unit::Hybrid, Unit::Triangles] {
-            let printed = serde_json::to_value(unit).unwrap();
-            assert_eq!(printed.as_str(), Some(unit_name(unit)));
-        }
     }
 }

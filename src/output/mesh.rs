@@ -61,11 +61,13 @@ impl MeshFile {
         title: &str,
         config: &Config,
     ) -> Result<Self> {
-        if form == MeshForm::Svg && !config.emit.divide {
-            return Err(Error::Usage(
-                "--mesh svg draws screen positions, which `emit.divide = false` leaves out"
-                    .to_owned(),
-            ));
+        if form == MeshForm::Svg && !config.divides() {
+            let reason = if config.unit.in_object_space() {
+                "a unit before transform has not"
+            } else {
+                "`emit.divide = false` leaves out"
+            };
+            return Err(Error::Usage(format!("--mesh svg draws screen positions, which {reason}")));
         }
         let out = AtomicFile::create(folder.join(form.file_name()))?;
         let form = match form {

@@ -56,7 +56,7 @@ fn write_patch(
     writeln!(out, "g patch{}", mesh.patch)?;
     let ulp = ulp(frame.view.position);
     for vertex in mesh.vertices {
-        let [x, y, z] = world(frame, real(vertex.position, ulp));
+        let [x, y, z] = world(mesh.to_world, real(vertex.position, ulp));
         writeln!(out, "v {x} {y} {z}")?;
     }
     for vertex in mesh.vertices {
@@ -72,7 +72,7 @@ fn write_patch(
 
 #[cfg(test)]
 mod tests {
-    use super::super::space::tests::frame;
+    use super::super::space::tests::{HALVED, frame};
     use super::*;
     use rtl_model::patch::{ONE, Vertex};
 

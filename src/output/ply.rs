@@ -183,7 +183,7 @@ fn write_vertices(
     let components: usize = mesh.layout.iter().map(|a| a.format.components()).sum();
     for (k, vertex) in mesh.vertices.iter().enumerate() {
         let clip = real(vertex.position, ulp);
-        for c in world(frame, clip) {
+        for c in world(mesh.to_world, clip) {
             out.write_all(&c.to_le_bytes())?;
         }
         for c in clip.into_iter().chain([parameter(vertex.u), parameter(vertex.v)]) {
@@ -210,7 +210,7 @@ fn write_faces(out: &mut impl Write, first: u32, mesh: &PatchMesh<'_>) -> io::Re
 
 #[cfg(test)]
 mod tests {
-    use super::super::space::tests::frame;
+    use super::super::space::tests::{HALVED, frame};
     use super::*;
     use crate::attribute::AttributeFormat;
     use rtl_model::patch::{HALF, ONE, Vertex};
@@ -225,7 +225,13 @@ mod tests {
         let vertices = [vertex(0, 0, 0), vertex(2, ONE, 0), vertex(4, HALF, ONE)];
         for patch in [5, 9] {
             let triangles = &[[0, 1, 2]];
-            let mesh = PatchMesh { patch, vertices: &vertices, triangles, ..PatchMesh::default() };
+            let mesh = PatchMesh {
+                patch,
+                vertices: &vertices,
+                triangles,
+                to_world: &HALVED,
+                ..PatchMesh::default()
+            };
             ply.patch(&frame(), &mesh).unwrap();
         }
         ply.finish().unwrap();

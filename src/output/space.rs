@@ -1,7 +1,6 @@
 //! Numbers of the hardware as real numbers: exact clip coordinates, and positions in world space
 //! for viewing.
 
-use crate::sink::FrameInfo;
 use rtl_model::number::Format;
 use rtl_model::patch::{ONE, Point};
 
@@ -29,11 +28,10 @@ pub fn parameter(raw: u32) -> f64 {
     f64::from(raw) / f64::from(ONE)
 }
 
-/// Where in the world a homogeneous point lies, to f32 precision. Where that is nowhere (w = 0),
+/// Where in the world the matrix `m`, column-major, takes a homogeneous point, to f32 precision. Where that is nowhere (w = 0),
 /// the origin: a viewer can do nothing with NaN.
 #[must_use]
-pub fn world(frame: &FrameInfo, point: [f64; 4]) -> [f32; 3] {
-    let m = &frame.to_world;
+pub fn world(m: &[f64; 16], point: [f64; 4]) -> [f32; 3] {
     let row = |r: usize| (0..4).map(|c| m[4 * c + r] * point[c]).sum::<f64>();
     let w = row(3);
     let position = [0, 1, 2].map(|r| (row(r) / w) as f32);
@@ -43,14 +41,15 @@ pub fn world(frame: &FrameInfo, point: [f64; 4]) -> [f32; 3] {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::sink::FrameInfo;
     use rtl_model::patch::{Depth, View};
 
-    /// A frame with 16 fraction bits, whose world is the clip space halved.
+    /// A world that is the clip space halved.
+    pub(in crate::output) const HALVED: [f64; 16] =
+        [0.5, 0., 0., 0., 0., 0.5, 0., 0., 0., 0., 0.5, 0., 0., 0., 0., 1.];
+
+    /// A frame with 16 fraction bits.
     pub(in crate::output) fn frame() -> FrameInfo {
-        let mut to_world = [0.0; 16];
-        for i in 0..4 {
-            to_world[5 * i] = if i < 3 { 0.5 } else { 1.0 };
-        }
         let view = View {
             position: Format { width: 32, fraction: 16 },
             viewport: [640, 480],
@@ -58,7 +57,7 @@ pub(super) mod tests {
             near: 1,
             facing: 1,
         };
-        FrameInfo { number: 0, view, to_world }
+        FrameInfo { number: 0, view }
     }
 
     #[test]
@@ -71,8 +70,8 @@ pub(super) mod tests {
 
     #[test]
     fn world_positions_are_divided_and_always_finite() {
-        assert_eq!(world(&frame(), [2.0, -4.0, 6.0, 2.0]), [0.5, -1.0, 1.5]);
-        assert_eq!(world(&frame(), [2.0, 0.0, 0.0, 0.0]), [0.0; 3]);
-        assert_eq!(world(&frame(), [0.0; 4]), [0.0; 3]);
+        assert_eq!(world(&HALVED, [2.0, -4.0, 6.0, 2.0]), [0.5, -1.0, 1.5]);
+        assert_eq!(world(&HALVED, [2.0, 0.0, 0.0, 0.0]), [0.0; 3]);
+        assert_eq!(world(&HALVED, [0.0; 4]), [0.0; 3]);
     }
 }

@@ -1,7 +1,6 @@
 //! `summary.json`: what a run was made of and what came of it, for programs that do not want to add
 //! up rows: totals, rates with their units, shares, and the hashes that reproduce it.
 
-use super::counters::unit_name;
 use crate::report::{Frame, Report};
 use rtl_model::counter::{Block, Counter};
 use serde::Serialize;
@@ -39,7 +38,7 @@ pub fn text(report: &Report, provenance: &Provenance) -> String {
     let value = json!({
         "tessim": env!("CARGO_PKG_VERSION"),
         "trace": provenance,
-        "unit": unit_name(report.config.unit),
+        "unit": report.config.unit.name(),
         "engine": report.config.engine,
         "frames": report.frames.len(),
         "totals": totals_by_name(report, &whole),

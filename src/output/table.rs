@@ -3,7 +3,6 @@
 
 mod time;
 
-use super::counters::unit_name;
 use super::summary::ratio;
 use crate::report::{Frame, Report};
 use rtl_model::counter::{Block, Counter, Counters, DECLARATIONS};
@@ -15,7 +14,7 @@ pub fn text(report: &Report, title: &str) -> String {
     let whole = report.whole();
     let totals = &whole.counters;
     let mut table = Table { text: String::new(), value_width: value_width(&whole) };
-    let unit = unit_name(report.config.unit);
+    let unit = report.config.unit.name();
     let frames = report.frames.len();
     let plural = if frames == 1 { "" } else { "s" };
     table.line(&format!("{BOLD}{}{PLAIN}: unit {unit}, {frames} frame{plural}", printable(title)));

@@ -81,7 +81,7 @@ impl Frame<'_> {
     fn curve_points(&self) -> u64 {
         let [vertices, triangles] = [C::EvaluateVertices, C::StitchTriangles].map(|c| self.get(c));
         let boundary = 2 * vertices - triangles - 2 * self.get(C::LevelPatches);
-        match self.config.evaluate.scheme {
+        match self.config.scheme() {
             Scheme::Forward => 0,
             Scheme::Mixed => self.get(C::EvaluateInvocations) - boundary,
             Scheme::DeCasteljau => self.get(C::EvaluateSteps),
@@ -208,7 +208,7 @@ pub const PIECES: &[Piece] = &[
         block: Block::Emit,
         meaning: "a vertex divided: w > 0, x + w and w - y, both times the viewport's size (15 \
                   bits), one reciprocal of w, and two quotients",
-        times: |f| if f.config.emit.divide { f.get(C::EmitVertices) } else { 0 },
+        times: |f| if f.config.divides() { f.get(C::EmitVertices) } else { 0 },
         once: |f| {
             let sides = Ops::default().compares(1, f.w).adds(2, f.w + 1).muls(2, f.w + 1, 15);
             sides.with(1, reciprocal(f.w)).with(2, quotient(f.w + 15, f.w, f.screen))

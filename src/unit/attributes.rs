@@ -1,7 +1,7 @@
 //! Attributes on their way through the unit: a table in, its components in the attribute format;
 //! a patch's corners and vertices in, the values of the vertices out.
 
-use super::hybrid::Pipeline;
+use super::pipeline::{Front, Pipeline};
 use crate::config::Config;
 use crate::trace::attributes::AttributeTable;
 use crate::trace::command::Attributes;
@@ -38,7 +38,7 @@ impl Corners {
     }
 
     /// Counts the interpolation of a patch's vertices.
-    pub(super) fn count(&self, config: &Config, made: &mut Pipeline<'_>) {
+    pub(super) fn count(&self, config: &Config, made: &mut Pipeline<'_, impl Front>) {
         let components = (self.table.components() * made.vertices.len()) as u64;
         let bytes = components * config.attributes.component_bytes();
         let counters = &mut made.counters;

@@ -8,7 +8,7 @@ use super::attributes::Corners;
 use super::chain::Work as Done;
 use super::clock::{Clock, Fetch};
 use super::frame::FrameState;
-use super::hybrid::Pipeline;
+use super::pipeline::{Front, Pipeline};
 use crate::config::Config;
 use crate::error::Result;
 use crate::shader::control_point;
@@ -22,6 +22,8 @@ use rtl_model::level::State;
 use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
 use rtl_model::patch::{Patch, Triangle, Vertex};
 use rtl_model::port::{self, Quantised};
+use rtl_model::strip::Topology;
+use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -75,6 +77,8 @@ pub(super) struct DrawState {
     pub(super) reversed: bool,
     /// Tessellation state.
     pub(super) state: State,
+    /// Takes a vertex to world space, column-major.
+    pub(super) to_world: [f64; 16],
     /// Bytes of a vertex on the link, where the host tessellates.
     pub(super) vertex_bytes: u64,
     /// The attributes of its corners.
@@ -108,6 +112,8 @@ pub(super) struct Batch {
     /// Points after the control-point shader: more than `points` where instances share them.
     shaded: usize,
     quantised: Vec<Quantised>,
+    /// The same points in clip space, where the unit works in object space: what the driver sees.
+    seen: Vec<Quantised>,
     spans: Vec<Span>,
     patches: Vec<Pending>,
     draws: Vec<DrawState>,
@@ -182,16 +188,16 @@ impl Batch {
     ///
     /// # Errors
     /// The sink's.
-    pub(super) fn flush(
+    pub(super) fn flush<F: Front>(
         &mut self,
         config: &Config,
         frame: &FrameState,
         sink: Option<&mut dyn Sink>,
         counters: &mut Counters,
-        clock: &mut Clock,
+        clock: &mut Clock<F::Lists>,
     ) -> Result<Vec<Tally>> {
         self.quantise(config, frame, counters);
-        let work = Work { batch: self, config, frame };
+        let work = Work::<F> { batch: self, config, frame, front: PhantomData };
         let mut timed = Timing { batch: self, clock, patches: 0, commands: 0 };
         let tallies = match sink {
             None => work.count(counters, &mut timed),
@@ -209,9 +215,32 @@ impl Batch {
 
     /// Control-point shader and port, on all threads.
     fn quantise(&mut self, config: &Config, frame: &FrameState, counters: &mut Counters) {
-        let blank = Quantised { point: [0; 4], overflows: 0 };
-        self.quantised.resize(self.shaded, blank);
-        let mut rest = &mut self.quantised[..];
+        let mut quantised = std::mem::take(&mut self.quantised);
+        let [points, overflows, saturated] = if config.unit.in_object_space() {
+            let mut seen = std::mem::take(&mut self.seen);
+            self.port(config, frame.view.position, true, &mut seen);
+            self.seen = seen;
+            self.port(config, frame.object, false, &mut quantised)
+        } else {
+            self.port(config, frame.view.position, true, &mut quantised)
+        };
+        self.quantised = quantised;
+        counters.add(Counter::PortPoints, points);
+        counters.add(Counter::PortOverflows, overflows);
+        counters.add(Counter::PortSaturated, saturated);
+    }
+
+    /// Quantises all points, transformed or as they are. Returns points received, coordinates that
+    /// did not fit, points with such a coordinate.
+    fn port(
+        &self,
+        config: &Config,
+        format: Format,
+        transformed: bool,
+        out: &mut Vec<Quantised>,
+    ) -> [u64; 3] {
+        out.resize(self.shaded, Quantised { point: [0; 4], overflows: 0 });
+        let mut rest = &mut out[..];
         let mut works = Vec::with_capacity(self.spans.len());
         for span in &self.spans {
             let (out, after) = rest.split_at_mut(span.points.len());
@@ -219,23 +248,20 @@ impl Batch {
             let pieces = self.points[span.points.clone()].chunks(POINT_GRAIN);
             for (k, (points, out)) in pieces.zip(out.chunks_mut(POINT_GRAIN)).enumerate() {
                 let repeated = span.repeated.saturating_sub(k * POINT_GRAIN).min(out.len());
-                let matrix = &span.clip_from_object;
-                works.push(PortWork { matrix, points, repeated, format: frame.view.position, out });
+                let matrix = transformed.then_some(&span.clip_from_object);
+                works.push(PortWork { matrix, points, repeated, format, out });
             }
         }
         let (rounding, overflow) = (config.position.rounding, config.position.overflow);
         let port = |work| dispatch(rounding, overflow, work);
         let counts = works.into_par_iter().with_min_len(WORK_GRAIN).map(port);
-        let [points, overflows, saturated] =
-            counts.reduce(|| [0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
-        counters.add(Counter::PortPoints, points);
-        counters.add(Counter::PortOverflows, overflows);
-        counters.add(Counter::PortSaturated, saturated);
+        counts.reduce(|| [0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]])
     }
 }
 
 struct PortWork<'a> {
-    matrix: &'a Mat4,
+    /// What the control-point shader transforms with; `None` where there is none.
+    matrix: Option<&'a Mat4>,
     points: &'a [[f32; 4]],
     /// How many of the first points were received, and counted, before.
     repeated: usize,
@@ -249,8 +275,8 @@ impl Modal for PortWork<'_> {
 
     fn run<R: RoundingMode, O: OverflowMode>(self) -> [u64; 3] {
         for (out, &point) in self.out.iter_mut().zip(self.points) {
-            let clip = control_point::transform(self.matrix, point);
-            *out = port::accept::<R, O>(clip.map(f32::to_bits), self.format);
+            let point = self.matrix.map_or(point, |m| control_point::transform(m, point));
+            *out = port::accept::<R, O>(point.map(f32::to_bits), self.format);
         }
         let received = &self.out[self.repeated..];
         let overflows = received.iter().map(|q| u64::from(q.overflows)).sum();
@@ -260,15 +286,15 @@ impl Modal for PortWork<'_> {
 }
 
 /// Puts patches and commands on the clock, in the order of the trace.
-struct Timing<'a> {
+struct Timing<'a, T: Topology> {
     batch: &'a Batch,
-    clock: &'a mut Clock,
+    clock: &'a mut Clock<T>,
     patches: usize,
     commands: usize,
 }
 
-impl Timing<'_> {
-    fn patches(&mut self, done: &[Done]) {
+impl<T: Topology> Timing<'_, T> {
+    fn patches(&mut self, done: &[Done<T>]) {
         for &work in done {
             self.commands();
             let patch = &self.batch.patches[self.patches];
@@ -290,22 +316,23 @@ impl Timing<'_> {
 }
 
 /// A batch whose points are quantised.
-struct Work<'a> {
+struct Work<'a, F> {
     batch: &'a Batch,
     config: &'a Config,
     frame: &'a FrameState,
+    front: PhantomData<F>,
 }
 
 /// What a thread made of a few patches.
 #[derive(Default)]
-struct Pieces {
+struct Pieces<T> {
     patches: Vec<Piece>,
     vertices: Vec<Vertex>,
     screen: Vec<Screen>,
     triangles: Vec<Triangle>,
     attributes: Vec<i64>,
     tallies: Vec<Tally>,
-    done: Vec<Done>,
+    done: Vec<Done<T>>,
     counters: Counters,
 }
 
@@ -316,14 +343,15 @@ struct Piece {
     vertices: usize,
     screen: usize,
     triangles: usize,
+    to_world: [f64; 16],
     table: Option<Arc<AttributeTable>>,
 }
 
-impl Work<'_> {
+impl<F: Front> Work<'_, F> {
     /// Counters only.
-    fn count(&self, counters: &mut Counters, timed: &mut Timing<'_>) -> Vec<Tally> {
+    fn count(&self, counters: &mut Counters, timed: &mut Timing<'_, F::Lists>) -> Vec<Tally> {
         let all = &self.batch.patches;
-        let parts: Vec<Pieces> = all
+        let parts: Vec<Pieces<F::Lists>> = all
             .par_chunks(GRAIN)
             .map_init(|| self.pipeline(), |p, part| self.run(p, part, false))
             .collect();
@@ -340,11 +368,11 @@ impl Work<'_> {
         &self,
         sink: &mut dyn Sink,
         counters: &mut Counters,
-        timed: &mut Timing<'_>,
+        timed: &mut Timing<'_, F::Lists>,
     ) -> Result<Vec<Tally>> {
         let mut tallies = Vec::new();
         for wave in self.batch.patches.chunks(WAVE) {
-            let parts: Vec<Pieces> = wave
+            let parts: Vec<Pieces<F::Lists>> = wave
                 .par_chunks(GRAIN)
                 .map_init(|| self.pipeline(), |p, part| self.run(p, part, true))
                 .collect();
@@ -357,15 +385,23 @@ impl Work<'_> {
         Ok(tallies)
     }
 
-    fn pipeline(&self) -> Pipeline<'_> {
-        Pipeline::new(self.config, self.frame.view)
+    fn pipeline(&self) -> Pipeline<'_, F> {
+        Pipeline::new(self.config, self.frame)
     }
 
-    fn run(&self, pipeline: &mut Pipeline<'_>, patches: &[Pending], keep: bool) -> Pieces {
+    fn run(
+        &self,
+        pipeline: &mut Pipeline<'_, F>,
+        patches: &[Pending],
+        keep: bool,
+    ) -> Pieces<F::Lists> {
         let mut pieces = Pieces::default();
         for pending in patches {
             let draw = &self.batch.draws[pending.draw as usize];
-            if pipeline.accept(&self.gather(pending, draw), &draw.state) {
+            let patch = self.gather(pending, draw, &self.batch.quantised);
+            let seen =
+                (!self.batch.seen.is_empty()).then(|| self.gather(pending, draw, &self.batch.seen));
+            if pipeline.accept(&patch, seen.as_ref().unwrap_or(&patch), &draw.state) {
                 pieces.tally(draw.number, pipeline);
                 let attributes = draw.attributes.as_deref();
                 if let Some(attributes) = attributes {
@@ -390,8 +426,8 @@ impl Work<'_> {
         pieces
     }
 
-    fn gather(&self, pending: &Pending, draw: &DrawState) -> Patch {
-        let points = pending.indices.map(|i| self.batch.quantised[i as usize]);
+    fn gather(&self, pending: &Pending, draw: &DrawState, points: &[Quantised]) -> Patch {
+        let points = pending.indices.map(|i| points[i as usize]);
         Patch {
             id: pending.id,
             points: points.map(|q| q.point),
@@ -402,8 +438,8 @@ impl Work<'_> {
     }
 }
 
-impl Pieces {
-    fn tally(&mut self, draw: u32, made: &Pipeline) {
+impl<T: Topology> Pieces<T> {
+    fn tally<F: Front>(&mut self, draw: u32, made: &Pipeline<'_, F>) {
         let tally = Tally {
             draw,
             vertices: made.vertices.len() as u64,
@@ -412,7 +448,7 @@ impl Pieces {
         add(&mut self.tallies, tally);
     }
 
-    fn keep(&mut self, pending: &Pending, draw: &DrawState, made: &Pipeline) {
+    fn keep<F: Front>(&mut self, pending: &Pending, draw: &DrawState, made: &Pipeline<'_, F>) {
         self.vertices.extend_from_slice(&made.vertices);
         self.screen.extend_from_slice(&made.screen);
         self.triangles.extend_from_slice(made.triangles());
@@ -422,6 +458,7 @@ impl Pieces {
             vertices: self.vertices.len(),
             screen: self.screen.len(),
             triangles: self.triangles.len(),
+            to_world: draw.to_world,
             table: draw.attributes.as_ref().map(|corners| corners.table.clone()),
         });
     }
@@ -441,6 +478,7 @@ impl Pieces {
                 triangles: &self.triangles[t..piece.triangles],
                 layout: piece.table.as_ref().map_or(&[], |table| &table.layout),
                 attributes,
+                to_world: &piece.to_world,
             })?;
             (v, s, t) = (piece.vertices, piece.screen, piece.triangles);
         }

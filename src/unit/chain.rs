@@ -12,18 +12,17 @@ use crate::link::wire::Wire;
 use rtl_model::counter::Block as Name;
 use rtl_model::level;
 use rtl_model::patch::Triangle;
-use rtl_model::place::Numbering;
-use rtl_model::strip::{Segments, Strip};
+use rtl_model::strip::{Strip, Topology};
 use rtl_model::time::{Block, Cost, Emit, Shape, Visitor};
 use rtl_model::{emit, evaluate, stitch};
 
 use block::{
-    Assemble, Backface, Clip, EmitBlock, Evaluate, Level, Link, Memory, Place, Points, Steady,
+    Assemble, Backface, Clip, EmitBlock, Evaluate, Level, Link, Memory, Of, Place, Points, Steady,
     Stitch, Store, VertexShader,
 };
 
 /// Levels of a patch: four edges and two interior directions.
-const LEVELS: u8 = 6;
+const LEVELS: u16 = 6;
 
 /// What became of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,24 +37,25 @@ pub(super) enum Fate {
 
 /// What its blocks did for a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Work {
+pub(super) struct Work<T> {
     /// How far it came.
     pub(super) fate: Fate,
     /// Whether back-face removal tested it.
     pub(super) tested: bool,
-    /// Levels computed: six, or one where it is fixed.
-    pub(super) levels: u8,
+    /// What the level block did one after another: six levels, or one where it is fixed; or the
+    /// pieces of curves that it looked at.
+    pub(super) levels: u16,
     /// Reciprocals formed.
     pub(super) reciprocals: u8,
-    /// Segments of the edges and of the interior, where it was tessellated.
-    pub(super) segments: Segments,
+    /// The lists of the edges and of the interior, where it was tessellated.
+    pub(super) lists: T,
 }
 
-impl Work {
+impl<T: Topology> Work<T> {
     /// A patch that was clipped: no block behind has seen it.
     pub(super) fn clipped() -> Self {
-        let segments = Segments::default();
-        Self { fate: Fate::Clipped, tested: false, levels: 0, reciprocals: 0, segments }
+        let lists = T::default();
+        Self { fate: Fate::Clipped, tested: false, levels: 0, reciprocals: 0, lists }
     }
 
     /// Vertices and triangles that came of it.
@@ -63,13 +63,12 @@ impl Work {
         if self.fate != Fate::Kept {
             return [0; 2];
         }
-        let [vertices, boundary] = [self.segments.vertices(), self.segments.boundary()];
-        [vertices as u64, (2 * vertices - boundary - 2) as u64] // Euler
+        [self.lists.vertices() as u64, self.lists.triangles() as u64]
     }
 }
 
 /// Levels that a criterion computes for a patch.
-pub(super) fn levels(criterion: level::Criterion) -> u8 {
+pub(super) fn levels(criterion: level::Criterion) -> u16 {
     match criterion {
         level::Criterion::Fixed { .. } => 1,
         level::Criterion::Flatness { .. } | level::Criterion::EdgeLength { .. } => LEVELS,
@@ -78,17 +77,17 @@ pub(super) fn levels(criterion: level::Criterion) -> u8 {
 
 /// What flows.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Token {
+pub(super) enum Token<T> {
     /// Host to memory: a part of a command, or, with work, the fetch of a patch.
-    Parcel(Parcel, Option<Work>),
+    Parcel(Parcel, Option<Work<T>>),
     /// Host to vertex shader, where the host tessellates: so many vertices.
     Vertices(Parcel, u32),
     /// Memory to assemble: a control point; a patch's last one completes it.
-    Point(Option<Work>),
+    Point(Option<Work<T>>),
     /// Memory to assemble: a patch of which every control point is on chip already.
-    Whole(Work),
+    Whole(Work<T>),
     /// Assemble to evaluate.
-    Patch(Work),
+    Patch(Work<T>),
     /// Evaluate to stitch.
     Strip(Strip),
     /// Stitch to emit, and whether it is its patch's first.
@@ -99,19 +98,19 @@ pub(super) enum Token {
 
 /// A block of a chain.
 #[derive(Clone, Debug)]
-pub(super) enum Stage {
-    Link(Link),
-    Memory(Memory),
-    Points(Points),
-    Assemble(Assemble),
-    Clip(Clip),
-    Backface(Backface),
-    Level(Level),
-    Place(Place),
-    Evaluate(Evaluate),
-    Stitch(Stitch),
-    Emit(EmitBlock),
-    VertexShader(VertexShader),
+pub(super) enum Stage<T> {
+    Link(Of<Link, T>),
+    Memory(Of<Memory, T>),
+    Points(Of<Points, T>),
+    Assemble(Of<Assemble, T>),
+    Clip(Of<Clip, T>),
+    Backface(Of<Backface, T>),
+    Level(Of<Level, T>),
+    Place(Of<Place, T>),
+    Evaluate(Of<Evaluate, T>),
+    Stitch(Of<Stitch, T>),
+    Emit(Of<EmitBlock, T>),
+    VertexShader(Of<VertexShader, T>),
 }
 
 /// `$body` of the block that `$stage` is.
@@ -134,19 +133,19 @@ macro_rules! of_kind {
     };
 }
 
-impl Block for Stage {
-    type Token = Token;
+impl<T: Topology> Block for Stage<T> {
+    type Token = Token<T>;
 
     #[inline]
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         of_kind!(self, block => block.accept(token, out))
     }
 
-    fn port(&self, token: &Token) -> Option<u64> {
+    fn port(&self, token: &Token<T>) -> Option<u64> {
         of_kind!(self, block => block.port(token))
     }
 
-    fn visit(&mut self, visitor: impl Visitor<Token>) {
+    fn visit(&mut self, visitor: impl Visitor<Token<T>>) {
         of_kind!(self, block => visitor.visit(block));
     }
 }
@@ -154,52 +153,54 @@ impl Block for Stage {
 /// The timed blocks of a unit, in the order of the data.
 pub(super) fn blocks(unit: Unit) -> &'static [Name] {
     match unit {
-        Unit::Hybrid => &super::blocks(unit)[1..], // all but the trace
+        Unit::Hybrid | Unit::Sfarti | Unit::Moreton => &super::blocks(unit)[1..], // all but trace
         Unit::Triangles => &[Name::Link, Name::VertexShader],
     }
 }
 
 /// The chain of the configured unit.
-pub(super) fn stages(config: &Config) -> Vec<(Stage, Shape)> {
+pub(super) fn stages<T: Topology>(config: &Config) -> Vec<(Stage<T>, Shape)> {
     blocks(config.unit).iter().map(|&block| stage(block, config)).collect()
 }
 
-fn stage(block: Name, config: &Config) -> (Stage, Shape) {
+fn stage<T: Topology>(block: Name, config: &Config) -> (Stage<T>, Shape) {
     let Some(costs) = config.costs(block) else {
         return if block == Name::Link {
             let link = LinkSchedule::new(config);
             let shape = link.shape();
-            (Stage::Link(Link(link)), shape)
+            (Stage::Link(Of::new(Link(link))), shape)
         } else {
             let memory = MemorySchedule::new(config);
             let shape = memory.shape();
-            (Stage::Memory(Memory(memory)), shape)
+            (Stage::Memory(Of::new(Memory(memory))), shape)
         };
     };
     let steady = Steady::of(&costs);
     let mut shape = costs.shape();
     let stage = match block {
-        Name::Transform | Name::Port => Stage::Points(Points(steady)),
-        Name::Assemble => Stage::Assemble(Assemble(steady)),
-        Name::Clip => Stage::Clip(Clip(steady, config.clip.enabled)),
-        Name::Backface => Stage::Backface(Backface(steady)),
-        Name::Level => Stage::Level(Level(steady)),
-        Name::Place => Stage::Place(Place(steady)),
-        Name::Evaluate => Stage::Evaluate(Evaluate(evaluate::Schedule {
+        Name::Transform | Name::Port => Stage::Points(Of::new(Points(steady))),
+        Name::Assemble => Stage::Assemble(Of::new(Assemble(steady))),
+        Name::Clip => Stage::Clip(Of::new(Clip(steady, config.clip.enabled))),
+        Name::Backface => Stage::Backface(Of::new(Backface(steady))),
+        Name::Level => Stage::Level(Of::new(Level(steady))),
+        Name::Place => Stage::Place(Of::new(Place(steady))),
+        Name::Evaluate => Stage::Evaluate(Of::new(Evaluate(evaluate::Schedule {
             interval: costs.interval,
             latency: costs.latency,
             setup: config.block.evaluate.setup,
-            scheme: config.evaluate.scheme,
-        })),
+            scheme: config.scheme(),
+        }))),
         Name::Stitch => {
             let (interval, latency) = (costs.interval, costs.latency);
-            Stage::Stitch(Stitch(stitch::Schedule { interval, latency }))
+            Stage::Stitch(Of::new(Stitch(stitch::Schedule { interval, latency })))
         }
-        Name::Emit => Stage::Emit(EmitBlock(emit::Schedule::new(costs.interval, costs.latency))),
+        Name::Emit => {
+            Stage::Emit(Of::new(EmitBlock(emit::Schedule::new(costs.interval, costs.latency))))
+        }
         Name::VertexShader => {
             let store = store(config);
             shape.shares_port = store.as_ref().is_some_and(|store| store.shared);
-            Stage::VertexShader(VertexShader(steady, store))
+            Stage::VertexShader(Of::new(VertexShader(steady, store)))
         }
         Name::Trace | Name::Link | Name::Memory | Name::Unit => {
             unreachable!("{block:?} has no costs")

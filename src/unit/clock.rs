@@ -2,11 +2,13 @@
 //! configuration names times it.
 
 use super::chain::{self, Stage, Token, Work};
-use crate::config::{Config, Engine, TransferMode, Unit};
+use crate::config::{Config, Engine, TransferMode};
 use crate::link::Transfer;
 use crate::link::framing::Pieces;
 use crate::link::schedule::Parcel;
 use rtl_model::counter::{Counter, Counters};
+use rtl_model::patch::Lists;
+use rtl_model::strip::{Segments, Topology};
 use rtl_model::time::Times;
 use rtl_model::time::ordered::Ordered;
 use rtl_model::time::stepped::Stepped;
@@ -16,9 +18,9 @@ use rtl_model::time::timed::Timed;
 const PARCEL_MAX: u64 = 1 << 30;
 
 /// The clock.
-pub(super) struct Clock {
+pub(super) struct Clock<T: Topology> {
     config: Config,
-    engine: Running,
+    engine: Running<T>,
     /// The command that is being sent.
     pieces: Pieces,
     /// Vertices and triangles of the draw that is being sent, where the host tessellates.
@@ -45,21 +47,21 @@ impl Sent {
     pub(super) fn check(&self, config: &Config, counters: &Counters) {
         let link = counters.get(Counter::LinkTotal);
         assert_eq!(self.link_bytes, link, "bytes timed on the link, and bytes counted");
-        if config.unit == Unit::Hybrid {
+        if !config.unit.host_tessellates() {
             let memory = counters.get(Counter::MemoryBursts) * u64::from(config.memory.burst);
             assert_eq!(self.memory_bytes, memory, "bytes timed in memory, and bytes counted");
         }
     }
 }
 
-enum Running {
+enum Running<T: Topology> {
     None,
     /// Keeps what the host sends.
-    Recording(Recording),
-    Timed(Box<Timed<Stage>>),
+    Recording(Tokens<T>),
+    Timed(Box<Timed<Stage<T>>>),
     /// Where stages share a memory port, who gets it depends on the order of time.
-    Ordered(Box<Ordered<Stage>>),
-    Stepped(Box<Stepped<Stage>>),
+    Ordered(Box<Ordered<Stage<T>>>),
+    Stepped(Box<Stepped<Stage<T>>>),
 }
 
 /// Control points of a patch that come from memory or from on chip.
@@ -71,18 +73,15 @@ pub(super) struct Fetch {
     pub(super) read: u32,
 }
 
-/// What the host sent in a run, frame by frame: to be timed again, by itself.
+/// What the host sent in a run, frame by frame.
 #[derive(Clone, Debug, Default)]
-pub struct Recording {
-    frames: Vec<Vec<Token>>,
-    frame: Vec<Token>,
+pub(super) struct Tokens<T> {
+    frames: Vec<Vec<Token<T>>>,
+    frame: Vec<Token<T>>,
 }
 
-impl Recording {
-    /// Lays the time of the configured engine over it; `None` without one. The configuration must
-    /// otherwise be that of the recorded run.
-    #[must_use]
-    pub fn replay(&self, config: &Config) -> Option<Times> {
+impl<T: Topology> Tokens<T> {
+    fn replay(&self, config: &Config) -> Option<Times> {
         let mut engine = Running::new(config);
         for frame in &self.frames {
             frame.iter().for_each(|&token| engine.feed(token));
@@ -91,14 +90,44 @@ impl Recording {
         engine.finish()
     }
 
-    /// Tokens in all.
-    #[must_use]
-    pub fn tokens(&self) -> usize {
+    fn len(&self) -> usize {
         self.frames.iter().map(Vec::len).sum()
     }
 }
 
-impl Running {
+/// What the host sent in a run: to be timed again, by itself.
+#[derive(Clone, Debug)]
+pub struct Recording(pub(super) Recorded);
+
+/// By what the triangles of a patch depend on.
+#[derive(Clone, Debug)]
+pub(super) enum Recorded {
+    Fractional(Tokens<Segments>),
+    Dyadic(Tokens<Lists>),
+}
+
+impl Recording {
+    /// Lays the time of the configured engine over it; `None` without one. The configuration must
+    /// otherwise be that of the recorded run.
+    #[must_use]
+    pub fn replay(&self, config: &Config) -> Option<Times> {
+        match &self.0 {
+            Recorded::Fractional(tokens) => tokens.replay(config),
+            Recorded::Dyadic(tokens) => tokens.replay(config),
+        }
+    }
+
+    /// Tokens in all.
+    #[must_use]
+    pub fn tokens(&self) -> usize {
+        match &self.0 {
+            Recorded::Fractional(tokens) => tokens.len(),
+            Recorded::Dyadic(tokens) => tokens.len(),
+        }
+    }
+}
+
+impl<T: Topology> Running<T> {
     fn new(config: &Config) -> Self {
         let chain = chain::stages(config);
         let shared = chain.iter().any(|(_, shape)| shape.shares_port);
@@ -112,7 +141,7 @@ impl Running {
         }
     }
 
-    fn feed(&mut self, token: Token) {
+    fn feed(&mut self, token: Token<T>) {
         match self {
             Self::None => {}
             Self::Recording(recording) => recording.frame.push(token),
@@ -145,25 +174,25 @@ impl Running {
     }
 }
 
-impl Clock {
+impl<T: Topology> Clock<T> {
     pub(super) fn new(config: &Config) -> Self {
         Self::with(config, Running::new(config))
     }
 
     /// A clock that no time is laid over, but which remembers what it was given.
     pub(super) fn recording(config: &Config) -> Self {
-        Self::with(config, Running::Recording(Recording::default()))
+        Self::with(config, Running::Recording(Tokens::default()))
     }
 
     /// What was recorded.
-    pub(super) fn into_recording(self) -> Option<Recording> {
+    pub(super) fn into_recording(self) -> Option<Tokens<T>> {
         match self.engine {
             Running::Recording(recording) => Some(recording),
             _ => None,
         }
     }
 
-    fn with(config: &Config, engine: Running) -> Self {
+    fn with(config: &Config, engine: Running<T>) -> Self {
         Self {
             config: config.clone(),
             engine,
@@ -173,7 +202,7 @@ impl Clock {
         }
     }
 
-    fn feed(&mut self, token: Token) {
+    fn feed(&mut self, token: Token<T>) {
         self.sent.tokens += 1;
         let (Token::Parcel(parcel, _) | Token::Vertices(parcel, _)) = token else {
             unreachable!("the host sends parcels");
@@ -188,9 +217,10 @@ impl Clock {
     pub(super) fn command(&mut self, payload: u64, written: u64) {
         self.end_draw();
         self.pieces = Pieces::new(&self.config.link);
-        match self.config.unit {
-            Unit::Hybrid => self.upload(payload, written),
-            Unit::Triangles => self.stream(payload, 0),
+        if self.config.unit.host_tessellates() {
+            self.stream(payload, 0);
+        } else {
+            self.upload(payload, written);
         }
     }
 
@@ -209,19 +239,16 @@ impl Clock {
 
     /// A patch of the command that was sent last, and what became of it: fetched by the unit, or
     /// sent as vertices of so many bytes.
-    pub(super) fn patch(&mut self, fetch: Fetch, work: Work, vertex_bytes: u64) {
-        match self.config.unit {
-            Unit::Hybrid => {
-                let Fetch { points, read } = fetch;
-                let parcel = Parcel { points, read, ..Parcel::default() };
-                self.feed(Token::Parcel(parcel, Some(work)));
-            }
-            Unit::Triangles => {
-                let [vertices, triangles] = work.made();
-                self.draw[0] += vertices;
-                self.draw[1] += triangles;
-                self.stream(vertices * vertex_bytes, vertices);
-            }
+    pub(super) fn patch(&mut self, fetch: Fetch, work: Work<T>, vertex_bytes: u64) {
+        if self.config.unit.host_tessellates() {
+            let [vertices, triangles] = work.made();
+            self.draw[0] += vertices;
+            self.draw[1] += triangles;
+            self.stream(vertices * vertex_bytes, vertices);
+        } else {
+            let Fetch { points, read } = fetch;
+            let parcel = Parcel { points, read, ..Parcel::default() };
+            self.feed(Token::Parcel(parcel, Some(work)));
         }
     }
 

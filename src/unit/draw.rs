@@ -4,6 +4,7 @@
 use super::attributes::{Corners, NO_CORNERS};
 use super::batch::DrawState;
 use super::clock::Fetch;
+use super::pipeline::Front;
 use super::run::Run;
 use crate::config::{Config, Memory};
 use crate::error::{Error, Result};
@@ -83,7 +84,7 @@ struct Placed {
     indexed: Vec<([u32; 16], u16)>,
 }
 
-impl Run<'_> {
+impl<F: Front> Run<'_, F> {
     /// Carries out a draw.
     pub(super) fn draw(&mut self, draw: &Draw) -> Result<()> {
         let frame = self.frame.expect("the reader refuses a draw before any frame");
@@ -97,16 +98,21 @@ impl Run<'_> {
             cull: draw.cull,
             reversed: draw.reversed,
             state: super::hybrid::state(&self.state, self.config),
+            to_world: frame.to_world,
             vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
             attributes: source.attributes.clone(),
         };
         // The spans of the instance before, while the batch holds all of it.
         let mut whole: Option<(Range<usize>, Placed)> = None;
         for model in &draw.models {
+            let mut state = state.clone();
+            if self.config.unit.in_object_space() {
+                state.to_world = model.map(f64::from);
+            }
             let model = Mat4::from_cols_array(model);
             let mut instance = Instance {
                 matrix: control_point::concatenate(&frame.clip_from_world, &model),
-                state: state.clone(),
+                state,
                 points: Bursts::default(),
                 corners: Bursts::default(),
                 cache: Cache::new(self.config.assemble.cache_entries),
@@ -116,7 +122,7 @@ impl Run<'_> {
                 Some((spans, mut placed))
                     if self.batch.room() as u64 >= draw.primitive.patches() =>
                 {
-                    self.batch.draw(state.clone());
+                    self.batch.draw(instance.state.clone());
                     placed.base = self.batch.again(instance.matrix, spans.clone());
                     self.patches(&source, &mut instance, Block::whole(draw.primitive), &placed);
                     whole = Some((spans, placed));
@@ -387,9 +393,11 @@ impl Instance {
         let Source { draw, points, attributes } = source;
         let patches = draw.primitive.patches();
         let [received, corners, whole] = self.received;
-        counters.add(Counter::TransformInvocations, received);
-        counters.add(Counter::TransformBytesIn, received * link::point_bytes(points));
-        counters.add(Counter::TransformBytesOut, received * SHADED_POINT);
+        if !config.unit.in_object_space() {
+            counters.add(Counter::TransformInvocations, received);
+            counters.add(Counter::TransformBytesIn, received * link::point_bytes(points));
+            counters.add(Counter::TransformBytesOut, received * SHADED_POINT);
+        }
         counters.add(Counter::AssembleReceived, received);
         counters.add(Counter::AssembleReused, 16 * patches - received);
         counters.add(Counter::AssembleWhole, whole);

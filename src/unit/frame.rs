@@ -20,6 +20,8 @@ pub struct FrameState {
     pub view: View,
     /// World to clip space, in f32 as the shader has it.
     pub clip_from_world: Mat4,
+    /// The format of positions in object space.
+    pub object: Format,
     /// Clip to world space, column-major.
     pub to_world: [f64; 16],
 }
@@ -43,6 +45,8 @@ impl FrameState {
             )
         })?;
         let position = Format::of_range(config.position.width, range_log2);
+        let object_log2 = frame.range.object.unwrap_or(config.position.object_range_log2);
+        let object = Format::of_range(config.position.width, object_log2);
         let near = config.level.near.unwrap_or(depths.nearest * (1.0 - TOLERANCE));
         let clip_from_world = control_point::concatenate(&projection, &view);
         let exact = projection.as_dmat4() * view.as_dmat4();
@@ -53,7 +57,13 @@ impl FrameState {
             near: raw(near, position),
             facing: facing(exact, frame.depth),
         };
-        Ok(Self { view, clip_from_world, to_world: exact.inverse().to_cols_array() })
+        Ok(Self { view, clip_from_world, object, to_world: exact.inverse().to_cols_array() })
+    }
+
+    /// The format of what the unit works on.
+    #[must_use]
+    pub fn position(&self, config: &Config) -> Format {
+        if config.unit.in_object_space() { self.object } else { self.view.position }
     }
 }
 

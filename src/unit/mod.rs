@@ -2,7 +2,8 @@
 //!
 //! Commands come in, triangles stream into a sink, counters come out. `run` carries out the
 //! commands, `frame` derives what is constant over a frame, `batch` collects patches and spreads
-//! them over the threads, `hybrid` is the unit's pipeline for one patch; `tokens` and `arithmetic`
+//! them over the threads, `pipeline` takes one patch through the blocks, of which `hybrid`,
+//! `sfarti` and `moreton` each have some of their own; `tokens` and `arithmetic`
 //! say from a frame's counters what flowed and what it took.
 
 pub mod arithmetic;
@@ -13,8 +14,11 @@ mod clock;
 mod draw;
 mod frame;
 mod hybrid;
+mod moreton;
 pub mod pattern;
+mod pipeline;
 mod run;
+mod sfarti;
 mod tokens;
 
 use crate::config::{Config, Unit};
@@ -27,6 +31,13 @@ use rtl_model::counter::{Block, Counters};
 
 pub use clock::Recording;
 pub use frame::FrameState;
+
+use clock::{Recorded, Tokens};
+use hybrid::Hybrid;
+use moreton::Moreton;
+use pipeline::Front;
+use run::Run;
+use sfarti::Sfarti;
 
 /// Carries out the commands of a trace on the configured unit, in the current rayon pool; any
 /// number of threads gives the same bytes.
@@ -44,7 +55,17 @@ pub fn simulate(
     sink: &mut dyn Sink,
 ) -> Result<Report> {
     config.check()?;
-    let mut run = run::Run::new(config, sink);
+    match config.unit {
+        Unit::Hybrid | Unit::Triangles => carry_out(Run::<Hybrid>::new(config, sink), commands),
+        Unit::Sfarti => carry_out(Run::<Sfarti>::new(config, sink), commands),
+        Unit::Moreton => carry_out(Run::<Moreton>::new(config, sink), commands),
+    }
+}
+
+fn carry_out<F: Front>(
+    mut run: Run<'_, F>,
+    commands: impl Iterator<Item = Result<Command>>,
+) -> Result<Report> {
     for command in commands {
         run.command(&command?)?;
     }
@@ -63,8 +84,21 @@ pub fn record(
     config: &Config,
 ) -> Result<Recording> {
     config.check()?;
+    Ok(Recording(match config.unit {
+        Unit::Hybrid | Unit::Triangles => {
+            Recorded::Fractional(recorded::<Hybrid>(commands, config)?)
+        }
+        Unit::Sfarti => Recorded::Dyadic(recorded::<Sfarti>(commands, config)?),
+        Unit::Moreton => Recorded::Fractional(recorded::<Moreton>(commands, config)?),
+    }))
+}
+
+fn recorded<F: Front>(
+    commands: impl Iterator<Item = Result<Command>>,
+    config: &Config,
+) -> Result<Tokens<F::Lists>> {
     let mut sink = NoMesh;
-    let mut run = run::Run::recording(config, &mut sink);
+    let mut run = Run::<F>::recording(config, &mut sink);
     for command in commands {
         run.command(&command?)?;
     }
@@ -75,7 +109,7 @@ pub fn record(
 #[must_use]
 pub fn blocks(unit: Unit) -> &'static [Block] {
     match unit {
-        Unit::Hybrid => &[
+        Unit::Hybrid | Unit::Sfarti => &[
             Block::Trace,
             Block::Link,
             Block::Memory,
@@ -91,6 +125,18 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
             Block::Emit,
             Block::VertexShader,
         ],
+        Unit::Moreton => &[
+            Block::Trace,
+            Block::Link,
+            Block::Memory,
+            Block::Port,
+            Block::Assemble,
+            Block::Place,
+            Block::Evaluate,
+            Block::Stitch,
+            Block::Emit,
+            Block::VertexShader,
+        ],
         Unit::Triangles => &[Block::Trace, Block::Link, Block::Emit, Block::VertexShader],
     }
 }
@@ -99,7 +145,8 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
 #[must_use]
 pub fn chain(config: &Config) -> Vec<Stage> {
     let blocks = chain::blocks(config.unit).iter();
-    let stages = chain::stages(config).into_iter();
+    // Shapes do not depend on what flows.
+    let stages = chain::stages::<rtl_model::place::Segments>(config).into_iter();
     blocks.zip(stages).map(|(&block, (_, shape))| Stage { block, shape }).collect()
 }
 
@@ -120,7 +167,7 @@ mod tests {
 
     #[test]
     fn the_timed_chain_is_of_the_units_blocks_in_their_order() {
-        for unit in [Unit::Hybrid, Unit::Triangles] {
+        for unit in Unit::ALL {
             let config = Config { unit, ..Config::default() };
             let chain: Vec<_> = chain(&config).iter().map(|stage| stage.block).collect();
             let blocks = blocks(unit).iter().copied().filter(|block| chain.contains(block));

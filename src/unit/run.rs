@@ -2,10 +2,11 @@
 
 use super::attributes::Corners;
 use super::batch::{self, Batch, Tally};
-use super::clock::{Clock, Recording};
+use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
+use super::pipeline::Front;
 use super::{blocks, chain, work};
-use crate::config::{Config, Unit};
+use crate::config::Config;
 use crate::error::Result;
 use crate::link::{self, Transfer};
 use crate::report::{Frame as FrameReport, Report};
@@ -14,11 +15,11 @@ use crate::trace::command::{Command, Frame, Points, Tessellation};
 use rtl_model::counter::standard::{Stage, Work};
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
-use rtl_model::patch::Level;
+use rtl_model::patch::{Level, View};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-pub(super) struct Run<'a> {
+pub(super) struct Run<'a, F: Front> {
     pub(super) config: &'a Config,
     sink: &'a mut dyn Sink,
     pub(super) points: HashMap<u32, Points>,
@@ -32,7 +33,7 @@ pub(super) struct Run<'a> {
     pub(super) draws: Vec<(Transfer, u64)>,
     tallies: Vec<Tally>,
     pub(super) batch: Batch,
-    clock: Clock,
+    clock: Clock<F::Lists>,
     pub(super) scratch: Vec<[f32; 4]>,
     /// Of the current frame; before the first frame, what that frame will be charged with.
     pub(super) counters: Counters,
@@ -43,7 +44,7 @@ pub(super) struct Run<'a> {
     host_link_bytes: u64,
 }
 
-impl<'a> Run<'a> {
+impl<'a, F: Front> Run<'a, F> {
     pub(super) fn new(config: &'a Config, sink: &'a mut dyn Sink) -> Self {
         Self {
             config,
@@ -70,7 +71,7 @@ impl<'a> Run<'a> {
         Self { clock: Clock::recording(config), ..Self::new(config, sink) }
     }
 
-    pub(super) fn finish_recording(mut self) -> Result<Recording> {
+    pub(super) fn finish_recording(mut self) -> Result<Tokens<F::Lists>> {
         self.end_frame()?;
         Ok(self.clock.into_recording().expect("it was recorded"))
     }
@@ -79,8 +80,8 @@ impl<'a> Run<'a> {
         if let Command::Frame(_) = command {
             self.end_frame()?;
         }
-        if self.config.unit == Unit::Hybrid {
-            let transfer = link::patches(command);
+        if !self.config.unit.host_tessellates() {
+            let transfer = link::to(self.config.unit, command);
             transfer.count(&self.config.link, &mut self.counters);
             let written = link::write_resident(command, self.config, &mut self.counters);
             self.send(transfer.payload(), written)?;
@@ -145,7 +146,8 @@ impl<'a> Run<'a> {
         let state = FrameState::new(frame, self.config)?;
         let number = self.frames.len() as u64;
         if self.sink.wants(number) {
-            self.sink.frame(&FrameInfo { number, view: state.view, to_world: state.to_world })?;
+            let view = View { position: state.position(self.config), ..state.view };
+            self.sink.frame(&FrameInfo { number, view })?;
         }
         self.counters.add(Counter::TraceFrames, 1);
         self.frame = Some(state);
@@ -157,10 +159,10 @@ impl<'a> Run<'a> {
 
     /// Where the host tessellates: a command, which its vertices follow.
     pub(super) fn send_as_host(&mut self, transfer: Transfer) -> Result<()> {
-        match self.config.unit {
-            Unit::Hybrid => Ok(()),
-            Unit::Triangles => self.send(transfer.payload(), 0),
+        if self.config.unit.host_tessellates() {
+            return self.send(transfer.payload(), 0);
         }
+        Ok(())
     }
 
     fn end_frame(&mut self) -> Result<()> {
@@ -187,7 +189,7 @@ impl<'a> Run<'a> {
     /// triangles. Points and tessellation state stay with the host.
     fn host(&mut self, transfer: Transfer) {
         self.host_link_bytes += transfer.total(&self.config.link);
-        if self.config.unit == Unit::Triangles {
+        if self.config.unit.host_tessellates() {
             transfer.count(&self.config.link, &mut self.counters);
         }
     }
@@ -199,8 +201,13 @@ impl<'a> Run<'a> {
         let frame = self.frame.expect("patches belong to a frame");
         let wanted = self.sink.wants(self.frames.len() as u64);
         let sink: Option<&mut dyn Sink> = if wanted { Some(&mut *self.sink) } else { None };
-        let tallies =
-            self.batch.flush(self.config, &frame, sink, &mut self.counters, &mut self.clock)?;
+        let tallies = self.batch.flush::<F>(
+            self.config,
+            &frame,
+            sink,
+            &mut self.counters,
+            &mut self.clock,
+        )?;
         for tally in tallies {
             batch::add(&mut self.tallies, tally);
         }

@@ -15,13 +15,14 @@ use rtl_model::counter::{Block, Counter as C, Counters};
 /// Tokens that `block` accepts and emits in a frame with these counters, in which the host sent so
 /// many.
 pub(super) fn of(unit: Unit, block: Block, counters: &Counters, sent: u64) -> [u64; 2] {
+    let get = |counter| counters.get(counter);
     match unit {
-        Unit::Hybrid => hybrid(block, |counter| counters.get(counter), sent),
-        Unit::Triangles => triangles(block, |counter| counters.get(counter), sent),
+        Unit::Hybrid | Unit::Sfarti | Unit::Moreton => patches(block, get, sent),
+        Unit::Triangles => triangles(block, get, sent),
     }
 }
 
-fn hybrid(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
+fn patches(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
     // Patches without a control point of their own are tokens on their way to assemble.
     let whole = get(C::AssembleWhole);
     let clipped = get(C::ClipIn) - get(C::ClipCulled);

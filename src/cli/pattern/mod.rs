@@ -50,10 +50,12 @@ pub(crate) struct Args {
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Unit {
     Hybrid,
+    Moreton,
 }
 
 pub(crate) fn run(args: &Args) -> Result<()> {
-    let Unit::Hybrid = args.unit;
+    // Both have Moreton's pattern.
+    let (Unit::Hybrid | Unit::Moreton) = args.unit;
     let mut out = std::io::BufWriter::new(print::stdout());
     match (&args.batch, &args.factors) {
         (Some(path), _) => batch::run(path, &mut out)?,

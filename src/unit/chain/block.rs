@@ -8,9 +8,10 @@ use crate::config::BlockCosts;
 use crate::link::schedule::{LinkSchedule, MemorySchedule};
 use crate::link::wire::Wire;
 use rtl_model::patch::Triangle;
-use rtl_model::strip::Strip;
+use rtl_model::strip::{Strip, Topology};
 use rtl_model::time::{Block, Cost, Emit};
 use rtl_model::{emit, evaluate, stitch};
+use std::marker::PhantomData;
 
 /// Cycles for each work item, and until its result.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +26,7 @@ impl Steady {
     }
 
     /// So many items one after another.
-    fn cost(&self, items: u8) -> Cost {
+    fn cost(&self, items: u16) -> Cost {
         let items = u64::from(items.max(1));
         Cost {
             interval: items * self.interval,
@@ -39,9 +40,44 @@ impl Steady {
     }
 }
 
+/// What a block makes of the tokens of a chain.
+pub(in crate::unit) trait Step<T: Topology> {
+    /// As [`Block::accept`].
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost;
+
+    /// As [`Block::port`].
+    fn port(&self, _token: &Token<T>) -> Option<u64> {
+        None
+    }
+}
+
+/// A block of a chain of units whose patches have the lists `T`.
+#[derive(Clone, Debug)]
+pub(in crate::unit) struct Of<B, T>(B, PhantomData<T>);
+
+impl<B, T> Of<B, T> {
+    pub(super) fn new(block: B) -> Self {
+        Self(block, PhantomData)
+    }
+}
+
+impl<B: Step<T>, T: Topology> Block for Of<B, T> {
+    type Token = Token<T>;
+
+    #[inline(always)]
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
+        self.0.accept(token, out)
+    }
+
+    #[inline(always)]
+    fn port(&self, token: &Token<T>) -> Option<u64> {
+        self.0.port(token)
+    }
+}
+
 /// A token that does not belong here: the chain is wired wrongly.
 #[cold]
-fn misled(token: &Token) -> ! {
+fn misled<T: Topology>(token: &Token<T>) -> ! {
     unreachable!("{token:?} came to a block that does not take it")
 }
 
@@ -49,10 +85,8 @@ fn misled(token: &Token) -> ! {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Link(pub(super) LinkSchedule);
 
-impl Block for Link {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Link {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         match *token {
             Token::Parcel(parcel, _) => one(token, self.0.accept(&parcel), out),
             Token::Vertices(parcel, count) => {
@@ -70,10 +104,8 @@ impl Block for Link {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Memory(pub(super) MemorySchedule);
 
-impl Block for Memory {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Memory {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Parcel(parcel, work) = *token else { misled(token) };
         let points = self.0.accept(&parcel);
         let count = u64::from(parcel.points);
@@ -86,7 +118,7 @@ impl Block for Memory {
         points.cost()
     }
 
-    fn port(&self, token: &Token) -> Option<u64> {
+    fn port(&self, token: &Token<T>) -> Option<u64> {
         let Token::Parcel(parcel, _) = token else { misled(token) };
         self.0.port(parcel)
     }
@@ -96,10 +128,8 @@ impl Block for Memory {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Points(pub(super) Steady);
 
-impl Block for Points {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Points {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let cost = if let Token::Whole(_) = token { self.0.idle() } else { self.0.cost(1) };
         one(token, cost, out)
     }
@@ -109,10 +139,8 @@ impl Block for Points {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Assemble(pub(super) Steady);
 
-impl Block for Assemble {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Assemble {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let (work, cost) = match *token {
             Token::Point(work) => (work, self.0.cost(1)),
             Token::Whole(work) => (Some(work), self.0.idle()),
@@ -129,10 +157,8 @@ impl Block for Assemble {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Clip(pub(super) Steady, pub(super) bool);
 
-impl Block for Clip {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Clip {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
         let cost = if self.1 { self.0.cost(1) } else { self.0.idle() };
         if work.fate == Fate::Clipped { cost } else { one(token, cost, out) }
@@ -143,10 +169,8 @@ impl Block for Clip {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Backface(pub(super) Steady);
 
-impl Block for Backface {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Backface {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
         let cost = if work.tested { self.0.cost(1) } else { self.0.idle() };
         if work.fate == Fate::Culled { cost } else { one(token, cost, out) }
@@ -157,10 +181,8 @@ impl Block for Backface {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Level(pub(super) Steady);
 
-impl Block for Level {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Level {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
         one(token, self.0.cost(work.levels), out)
     }
@@ -170,13 +192,11 @@ impl Block for Level {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Place(pub(super) Steady);
 
-impl Block for Place {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Place {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
         let divides = work.reciprocals > 0;
-        let cost = if divides { self.0.cost(work.reciprocals) } else { self.0.idle() };
+        let cost = if divides { self.0.cost(work.reciprocals.into()) } else { self.0.idle() };
         one(token, cost, out)
     }
 }
@@ -185,12 +205,10 @@ impl Block for Place {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Evaluate(pub(super) evaluate::Schedule);
 
-impl Block for Evaluate {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Evaluate {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
-        self.0.accept(work.segments, &mut Strips(out))
+        self.0.accept(work.lists, &mut Strips(out, PhantomData))
     }
 }
 
@@ -198,12 +216,10 @@ impl Block for Evaluate {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Stitch(pub(super) stitch::Schedule);
 
-impl Block for Stitch {
-    type Token = Token;
-
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+impl<T: Topology> Step<T> for Stitch {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Strip(strip) = token else { misled(token) };
-        self.0.accept(strip, &mut Triangles { out, first: strip.first })
+        self.0.accept(strip, &mut Triangles { out, first: strip.first, lists: PhantomData })
     }
 }
 
@@ -211,13 +227,11 @@ impl Block for Stitch {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct EmitBlock(pub(super) emit::Schedule);
 
-impl Block for EmitBlock {
-    type Token = Token;
-
+impl<T: Topology> Step<T> for EmitBlock {
     #[inline(always)]
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Triangle(triangle, first) = *token else { misled(token) };
-        self.0.accept(triangle, first, &mut Vertices(out))
+        self.0.accept(triangle, first, &mut Vertices(out, PhantomData))
     }
 }
 
@@ -225,16 +239,14 @@ impl Block for EmitBlock {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct VertexShader(pub(super) Steady, pub(super) Option<Store>);
 
-impl Block for VertexShader {
-    type Token = Token;
-
+impl<T: Topology> Step<T> for VertexShader {
     #[inline(always)]
-    fn accept(&mut self, token: &Token, out: &mut impl Emit<Token>) -> Cost {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let cost = shade(self.0, &mut self.1);
         one(token, cost, out)
     }
 
-    fn port(&self, _token: &Token) -> Option<u64> {
+    fn port(&self, _token: &Token<T>) -> Option<u64> {
         let store = self.1.as_ref().filter(|store| store.shared)?;
         Some(store.writes.whole_cycles(store.bytes))
     }
@@ -250,7 +262,7 @@ pub(in crate::unit) struct Store {
 
 /// Emits the one output of a token when it is done.
 #[inline(always)]
-fn one(token: &Token, cost: Cost, out: &mut impl Emit<Token>) -> Cost {
+fn one<T: Topology>(token: &Token<T>, cost: Cost, out: &mut impl Emit<Token<T>>) -> Cost {
     out.emit(*token, cost.latency);
     cost
 }
@@ -269,9 +281,9 @@ fn shade(shader: Steady, store: &mut Option<Store>) -> Cost {
 }
 
 /// Vertices as tokens.
-struct Vertices<'a, E>(&'a mut E);
+struct Vertices<'a, E, T>(&'a mut E, PhantomData<T>);
 
-impl<E: Emit<Token>> Emit<u16> for Vertices<'_, E> {
+impl<T, E: Emit<Token<T>>> Emit<u16> for Vertices<'_, E, T> {
     #[inline(always)]
     fn emit(&mut self, _vertex: u16, offset: u64) {
         self.0.emit(Token::Vertex, offset);
@@ -279,12 +291,13 @@ impl<E: Emit<Token>> Emit<u16> for Vertices<'_, E> {
 }
 
 /// Triangles as tokens.
-struct Triangles<'a, E> {
+struct Triangles<'a, E, T> {
     out: &'a mut E,
     first: bool,
+    lists: PhantomData<T>,
 }
 
-impl<E: Emit<Token>> Emit<Triangle> for Triangles<'_, E> {
+impl<T, E: Emit<Token<T>>> Emit<Triangle> for Triangles<'_, E, T> {
     #[inline(always)]
     fn emit(&mut self, triangle: Triangle, offset: u64) {
         let first = std::mem::take(&mut self.first);
@@ -293,9 +306,9 @@ impl<E: Emit<Token>> Emit<Triangle> for Triangles<'_, E> {
 }
 
 /// Strips as tokens.
-struct Strips<'a, E>(&'a mut E);
+struct Strips<'a, E, T>(&'a mut E, PhantomData<T>);
 
-impl<E: Emit<Token>> Emit<Strip> for Strips<'_, E> {
+impl<T, E: Emit<Token<T>>> Emit<Strip> for Strips<'_, E, T> {
     #[inline(always)]
     fn emit(&mut self, strip: Strip, offset: u64) {
         self.0.emit(Token::Strip(strip), offset);

@@ -1,0 +1,34 @@
+//! `moreton`: the place of GeForce3's tessellator, before transform. The driver chooses the levels
+//! of a patch's edges and sends them over the link; the unit tessellates in object space and culls
+//! nothing; a vertex program transforms every vertex.
+//!
+//! ```text
+//!   patch, four levels ─► place ─► evaluate ─► stitch ─► emit ─► vertex shader
+//! ```
+//!
+//! Moreton 2001; GL_NV_evaluators has four levels a patch, floats. The driver's levels are those
+//! that the level block of the other units computes, from the same quantised points, so that the
+//! units differ in what they do and not in how fine they are asked to be. The interior's level
+//! along an axis is the greater of the two edges across it: nothing else crosses the link.
+
+use super::pipeline::{Front, Placed, Placing};
+use rtl_model::level;
+use rtl_model::patch::Levels;
+use rtl_model::place::{List, Placement, Segments};
+
+/// What this unit has of its own.
+pub(super) struct Moreton;
+
+impl Front for Moreton {
+    type Lists = Segments;
+    type List = List;
+    const CULLS: bool = false;
+
+    fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
+        let (levels, events) = level::accept(work.patch, work.view, work.state);
+        let [v0, u1, v1, u0] = levels.edges;
+        placement.set(&Levels { interior: [v0.max(v1), u1.max(u0)], ..levels });
+        let reciprocals = placement.reciprocals() as u8; // at most 6
+        Placed { lists: placement.segments(), events, levels: 0, reciprocals }
+    }
+}
