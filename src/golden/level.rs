@@ -6,7 +6,11 @@
 //! within 1/8 max|B''| / n^2 of its chords, B'' being 6 times a mix of the second differences; a
 //! surface in n by m within 1/8 (Muu/n^2 + 2 Muv/(n m) + Mvv/m^2).
 
+mod subdivide;
+
 use rtl_model::patch::{EDGES, Point, View};
+
+pub use subdivide::{Piece, Verdict, verdict};
 
 /// How levels are chosen, in real pixels and segments.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@
 //! level 2, where the one step from a corner passes the midpoint, there is none: {0, 1 - 1/s,
 //! 1/s, 1}. The parameters form a set, so coinciding ones need no case.
 
-use rtl_model::patch::{EDGES, Level, Levels};
+use rtl_model::patch::{Dyadic, EDGES, Level, Levels, Lists};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -124,6 +124,28 @@ pub fn place(levels: &Levels) -> Placed {
         rows: inner(interior[1]),
         reciprocals: distinct.iter().filter(|&&level| level > Level::MIN).count(),
     }
+}
+
+/// Places the vertices of a patch that is subdivided at midpoints. Without inner entries along
+/// both directions it has no interior.
+#[must_use]
+pub fn dyadic(lists: &Lists) -> Placed {
+    let inner = |list: Dyadic| -> Vec<Entry> {
+        let k = (1..128_u64).filter(|&k| list.mask() >> k & 1 == 1);
+        let entry = |parameter: Fraction| Entry { parameter, run: parameter.real(), steps: 0 };
+        k.map(|k| entry(Fraction(k, 128))).collect()
+    };
+    let end = |k| Entry { parameter: Fraction(k, 1), run: k as f64, steps: 0 };
+    let edge = |list: Dyadic| [vec![end(0)], inner(list), vec![end(1)]].concat();
+    let union = |a: usize, b: usize, list: Dyadic| {
+        let mask = lists.edges()[a].mask() | lists.edges()[b].mask() | list.mask();
+        inner(Dyadic::of(mask))
+    };
+    let (mut columns, mut rows) = (union(0, 2, lists.u()), union(1, 3, lists.v()));
+    if columns.is_empty() || rows.is_empty() {
+        (columns, rows) = (Vec::new(), Vec::new());
+    }
+    Placed { edges: lists.edges().map(edge), columns, rows, reciprocals: 0 }
 }
 
 impl Placed {

@@ -6,9 +6,13 @@
 //! turned counter-clockwise by the sign of their area over row numbers, which no coincidence of
 //! parameters can make 0.
 
+mod zipper;
+
 use super::place::{Entry, Fraction, Placed};
 use rtl_model::patch::{Triangle, Vertex};
 use std::collections::HashSet;
+
+pub use zipper::zipped;
 
 /// A vertex: its number, and whole coordinates that grow as u and v do.
 #[derive(Clone, Copy, Debug)]
@@ -100,19 +104,26 @@ impl Side {
             let (x, y) = [(along, away), (-away, along), (along, -away), (away, along)][side];
             Corner { number, x, y }
         };
-        let start: usize = placed.edges[..side].iter().map(|edge| edge.len() - 1).sum();
-        let edge = &placed.edges[side];
-        let outer = edge.iter().enumerate().map(|(k, entry)| {
-            let number = if side < 2 { start + k } else { start + edge.len() - 1 - k };
-            (entry.parameter, corner(number % boundary, k, 0))
-        });
         let (columns, rows) = (placed.columns.len(), placed.rows.len());
         let list = if side.is_multiple_of(2) { &placed.columns } else { &placed.rows };
         let inner = list.iter().enumerate().map(|(k, entry)| {
             let (i, j) = [(k, 0), (columns - 1, k), (k, rows - 1), (0, k)][side];
             (entry.parameter, corner(boundary + j * columns + i, k, 1))
         });
-        Self { outer: outer.collect(), inner: inner.collect(), side }
+        let outer = Self::edge(placed, boundary, side);
+        Self { outer, inner: inner.collect(), side }
+    }
+
+    /// The vertices of an edge along its growing parameter.
+    fn edge(placed: &Placed, boundary: usize, side: usize) -> Vec<(Fraction, Corner)> {
+        let start: usize = placed.edges[..side].iter().map(|edge| edge.len() - 1).sum();
+        let edge = &placed.edges[side];
+        let vertex = |k: usize| {
+            let number = if side < 2 { start + k } else { start + edge.len() - 1 - k };
+            let (x, y) = if side.is_multiple_of(2) { (k as i64, 0) } else { (0, k as i64) };
+            (edge[k].parameter, Corner { number: number % boundary, x, y })
+        };
+        (0..edge.len()).map(vertex).collect()
     }
 
     fn stitch(&self, out: &mut Vec<[usize; 3]>) {

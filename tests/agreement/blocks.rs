@@ -153,7 +153,7 @@ pub(crate) fn stitch(
 
 pub(crate) fn degenerate(
     ledger: &mut Ledger,
-    placement: &Placement,
+    placement: &impl Numbering,
     vertices: &[Vertex],
     triangles: &[Triangle],
 ) {
@@ -162,11 +162,11 @@ pub(crate) fn degenerate(
     ledger.equal(Q::StitchDegenerate, got, want);
 }
 
-pub(crate) fn evaluate(
+pub(crate) fn evaluate<L: Parameters>(
     ledger: &mut Ledger,
     patch: &Patch,
     settings: Settings,
-    (placement, placed): (&Placement, &golden::place::Placed),
+    (placement, placed): (&Placement<L>, &golden::place::Placed),
 ) -> Vec<Vertex> {
     let mut vertices = Vec::new();
     Evaluate::new(settings).accept(patch, placement, &mut vertices);
@@ -222,7 +222,17 @@ pub(crate) fn evaluate(
     vertices
 }
 
-fn corners(ledger: &mut Ledger, patch: &Patch, placement: &Placement, vertices: &[Vertex]) {
+/// Parameters in U1.16.
+pub(crate) fn reals(list: &impl Parameters) -> Vec<f64> {
+    list.parameters().iter().map(|&t| t.into()).collect()
+}
+
+fn corners<L: Parameters>(
+    ledger: &mut Ledger,
+    patch: &Patch,
+    placement: &Placement<L>,
+    vertices: &[Vertex],
+) {
     let mut first = 0;
     // Counter-clockwise, each edge begins at the corner that the one before it left.
     for (edge, corner) in placement.edges.iter().zip([0, 3, 15, 12]) {

@@ -12,6 +12,8 @@ const SHOWN: usize = 3;
 #[derive(Default)]
 pub(crate) struct Ledger {
     tallies: Vec<Tally>,
+    /// Decisions of subdivision that rounding may take either way: seen, and not compared.
+    pub(crate) undecided: u64,
 }
 
 #[derive(Clone, Default)]
@@ -25,7 +27,7 @@ struct Tally {
 
 impl Ledger {
     pub(crate) fn new() -> Self {
-        Self { tallies: vec![Tally::default(); TABLE.len()] }
+        Self { tallies: vec![Tally::default(); TABLE.len()], undecided: 0 }
     }
 
     /// Takes in one item of a row with a budget.
@@ -89,6 +91,12 @@ impl Ledger {
                     "{name}: budget {budget:e} is more than four times the largest error {error:e}"
                 ));
             }
+        }
+        let decided = self.tallies[Quantity::LevelDivided as usize].compared;
+        println!("level: decisions to divide within rounding of the threshold: {}", self.undecided);
+        // Small patches, and positions of few bits, are all rounding.
+        if 10 * self.undecided > decided {
+            wrong.push(format!("{} of {decided} decisions to divide left open", self.undecided));
         }
         wrong
     }

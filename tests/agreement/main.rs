@@ -4,6 +4,7 @@
 //! `TESSIM_LONG=1 cargo test --test agreement` draws twenty times as many samples.
 
 mod blocks;
+mod dyadic;
 mod ledger;
 mod levels;
 mod planes;

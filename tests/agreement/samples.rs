@@ -2,6 +2,7 @@
 //! items.
 
 use super::blocks;
+use super::dyadic;
 use super::ledger::Ledger;
 use super::levels;
 use super::planes::{self, Source};
@@ -12,9 +13,10 @@ use glam::{DMat4, DVec3};
 use rtl_model::assemble::{FanEncoding, Primitive};
 use rtl_model::emit;
 use rtl_model::evaluate::Settings;
-use rtl_model::level::{Criterion, State};
+use rtl_model::level::{Criterion, State, Termination};
 use rtl_model::number::{Format, Overflow, Rounding};
-use rtl_model::patch::{Depth, Level, Levels, Patch, Vertex, View};
+use rtl_model::patch::{Depth, Dyadic, Level, Levels, Lists, Patch, Vertex, View};
+use rtl_model::place::Numbering;
 use tessim::config::{Config, Scheme};
 use tessim::golden::{Real, control_point};
 
@@ -55,6 +57,9 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
     }
     for k in 0..2_400 * scale {
         surface(ledger, &mut random, Kind::ALL[k as usize % 7]);
+    }
+    for k in 0..2_800 * scale {
+        subdivision(ledger, &mut random, Kind::ALL[k as usize % 7]);
     }
     for _ in 0..2_000 * scale {
         screen(ledger, &mut random);
@@ -162,6 +167,33 @@ fn surface(ledger: &mut Ledger, random: &mut Random, kind: Kind) {
     pipeline(ledger, &patch, &view, &levels, settings, emit);
 }
 
+/// All blocks of a unit that divides at midpoints: on the lists that it chooses, and on any.
+fn subdivision(ledger: &mut Ledger, random: &mut Random, kind: Kind) {
+    let settings = Settings { scheme: Scheme::DeCasteljau, ..settings(random) };
+    let view = view(random, settings.position.width);
+    let patch = patch(random, kind, view.position.max());
+    let emit =
+        emit::Settings { subpixel_bits: random.integer(0, 12), rounding: random.of(Rounding::ALL) };
+    let termination = random.of([Termination::EightCurves, Termination::Bounded]);
+    let chosen = dyadic::level(ledger, &patch, &view, &state(random), termination);
+    let mut list = || {
+        let many = |random: &mut Random| {
+            u128::from(random.bits() & random.bits()) << 64 | u128::from(random.bits())
+        };
+        let dense = many(random);
+        let sparse = dense & many(random) & many(random) & many(random);
+        random.of([Dyadic::of(dense), Dyadic::of(sparse), Dyadic::of(sparse), Dyadic::NONE])
+    };
+    let any = Lists::new([list(), list(), list(), list()], list(), list());
+    // What takes long, less often.
+    if chosen.vertices() < 1_000 || random.integer(0, 15) == 0 {
+        dyadic::pipeline(ledger, &patch, &view, &chosen, settings, emit);
+    }
+    if random.integer(0, 15) == 0 {
+        dyadic::pipeline(ledger, &patch, &view, &any, settings, emit);
+    }
+}
+
 /// Place, evaluate, stitch and emit.
 fn pipeline(
     ledger: &mut Ledger,
@@ -250,6 +282,18 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
             };
             let emit = emit::Settings { subpixel_bits: 8, rounding: config.emit.rounding };
             pipeline(ledger, patch, view, &levels, settings, emit);
+        }
+        for termination in [Termination::EightCurves, Termination::Bounded] {
+            let lists = dyadic::level(ledger, patch, view, &drawn.state, termination);
+            let settings = Settings {
+                position: view.position,
+                guard: config.guard(),
+                scheme: Scheme::DeCasteljau,
+                rounding: config.evaluate.rounding,
+                overflow: config.position.overflow,
+            };
+            let emit = emit::Settings { subpixel_bits: 8, rounding: config.emit.rounding };
+            dyadic::pipeline(ledger, patch, view, &lists, settings, emit);
         }
         seen += 1;
     });
