@@ -3,16 +3,16 @@
 use super::print;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Path, PathBuf};
-use tessim::config::Config;
 use tessim::config::layers::Layers;
 use tessim::config::preset::Preset;
+use tessim::config::{Config, Unit};
 use tessim::error::{Error, Place, Result};
 
 /// Flags that make a configuration; each layer lies over the one before.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Layered {
     /// The unit that runs; over all layers [default: hybrid]
-    #[arg(long, value_name = "U", value_parser = ["hybrid", "triangles"])]
+    #[arg(long, value_name = "U", value_parser = units())]
     unit: Option<String>,
     /// The machine whose numbers are assumed [default: modern]
     #[arg(long, value_name = "P", value_parser = presets(), hide_default_value = true)]
@@ -23,6 +23,11 @@ pub(crate) struct Layered {
     /// One setting over the file, such as position.width=24; may be repeated
     #[arg(long = "set", value_name = "key=value")]
     settings: Vec<String>,
+}
+
+/// The names of all units.
+pub(crate) fn units() -> PossibleValuesParser {
+    PossibleValuesParser::new(Unit::ALL.map(Unit::name))
 }
 
 fn presets() -> impl TypedValueParser<Value = Preset> {
