@@ -85,7 +85,12 @@ const PLAIN: &[Key] = &[
         ("0.1", "w on the near plane"),
     ),
     key("clip.enabled", "remove patches wholly outside one clip plane", "true or false"),
-    key("backface.method", "the back-face test", "off, net_facets or tangent_plane"),
+    key(
+        "backface.method",
+        "the back-face test; net_facets and hull_literal remove what a viewer can see, too: \
+         `tessim study backface`",
+        "off, net_facets, tangent_plane, normal_cone or hull_literal",
+    ),
     key("evaluate.scheme", "how points are computed", "forward, mixed or de_casteljau"),
     optional(
         "evaluate.guard",
