@@ -175,5 +175,31 @@ mod tests {
         let cosine = |degrees: f64| (degrees.to_radians().cos().powi(2) * one as f64) as u64;
         let at = |a: f64, b: f64| apart(-1000, 2000 * 2000, [cosine(a), cosine(b)]);
         assert!(at(15.0, 14.99) && !at(15.0, 15.01) && at(29.9, 0.001) && !at(50.0, 50.0));
+        // Opposite axes, and cones of 160 degrees together: the sine of that is small again.
+        assert!(!apart(-2000, 2000 * 2000, [cosine(80.0), cosine(80.0)]));
+    }
+
+    #[test]
+    fn what_is_cut_off_a_direction_never_narrows_a_cone() {
+        let mut state = 1u64;
+        let mut draw = |bits: u32| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as i128 % (2 << bits) - (1 << bits)
+        };
+        let mut compared = 0;
+        for _ in 0..20_000 {
+            let axis = normalised([(); 3].map(|()| draw(11)), AXIS_BITS);
+            let v = [(); 3].map(|()| draw(28));
+            if let Ok(square) = widest(axis, &[normalised(v, DIRECTION_BITS)]) {
+                let a = axis.map(i128::from);
+                let dot = |b: Row<i128>, c: Row<i128>| b[0] * c[0] + b[1] * c[1] + b[2] * c[2];
+                let along = dot(a, v);
+                assert!(
+                    along > 0 && i128::from(square) * dot(a, a) * dot(v, v) <= along.pow(2) << 40
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 5_000, "{compared}");
     }
 }
