@@ -5,6 +5,8 @@
 //! trace ─► unit ─► sink (triangles)         rtl_model: the fixed-point blocks of the units
 //!           │                               golden:    the same blocks in f64, by definition
 //!           └────► report (counters) ─► output
+//!
+//! study: many runs of one block, and a table of what they show
 //! ```
 //!
 //! The whole interface is one function, [`simulate`]:
@@ -35,6 +37,7 @@ pub mod output;
 pub mod report;
 pub mod shader;
 pub mod sink;
+pub mod study;
 pub mod trace;
 pub mod unit;
 

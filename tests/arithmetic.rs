@@ -126,6 +126,21 @@ fn back_face_tests_cost_their_definitions() {
     assert_eq!(tangent[4..], [81, 81 * 110]);
     let facets = numbers(ops(&test(BackfaceMethod::NetFacets), Block::Backface));
     assert_eq!([facets[0], facets[2], facets[4]], [3 * 39 + 36 * 5, 36 * 9, 36]);
+    let cone = numbers(ops(&test(BackfaceMethod::NormalCone), Block::Backface));
+    // 24 differences, 12 with a binomial; 144 cross products into 36 coefficients; sums of 16 and
+    // of 36 directions; dot products of the axes, each with each and itself. 52 times: a dot
+    // product of an axis and a direction less its error, the direction's length, a square and two
+    // products to compare. At last two quotients (three Newton steps, a product, a correction, and
+    // one for the divisor), five roots of two Newton steps, and seven products.
+    let adds = [72, 36, 144 * 3, 108 * 3, 150, 3 * 2 + 4, 52 * (3 + 3 + 2), 2 * (3 + 1), 5 * 2, 3];
+    let muls = [144 * 6, 3 * 3, 52 * (3 + 3 + 1 + 2), 2 * (3 * 2 + 2 + 1), 5 * (2 * 3 + 2), 6];
+    assert_eq!([cone[0], cone[2]], [adds.iter().sum::<u64>(), muls.iter().sum::<u64>()]);
+    assert_eq!(cone[4], 1 + 52 * 2 + 5 + 2);
+    let hull = numbers(ops(&test(BackfaceMethod::HullLiteral), Block::Backface));
+    // 119 differences, all but one of two points; 560 triples: a cross product, 14 dot products
+    // and signs.
+    let hull_by_hand = [3 * 119 + 560 * (3 + 14 * 2), 560 * (6 + 14 * 3), 560 * 14];
+    assert_eq!([hull[0], hull[2], hull[4]], hull_by_hand);
     let untested = patch(|c| c.position.clip_range_log2 = Some(0)); // saturated points
     assert_eq!(ops(&untested, Block::Backface).mul, 0);
 }

@@ -365,6 +365,39 @@ fn patterns_come_one_line_each() {
 }
 
 #[test]
+fn a_study_prints_its_table_and_writes_integers() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let small = ["study", "backface", "--views", "3", "--random", "40", "--out"];
+    let study = || {
+        let output = tessim().args(small).arg(&out).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        (output.stdout, fs::read_to_string(out.join("backface.csv")).unwrap())
+    };
+    let (first, second) = (study(), study()); // it replaces its like
+    assert!(first == second);
+    let (table, csv) = (String::from_utf8(first.0).unwrap(), first.1);
+    assert!(table.starts_with("viewers outside the hull of every patch\n\n| patches "), "{table}");
+    for line in ["| teapot   | tangent_plane |", "| random   | hull_literal  |     40 |"] {
+        assert_eq!(table.matches(line).count(), 2, "{line} outside and within: {table}");
+    }
+    assert!(table.contains(" patches 0 culled, 0 of them wrongly: the hull is closed"), "{table}");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 1 + 4 * 4 * 2);
+    assert_eq!(rows[0][..4], ["patches", "viewer", "method", "tested"]);
+    assert_eq!(rows[1][..4], ["teapot", "outside", "hull_literal", "96"]);
+    for row in &rows[1..] {
+        assert!(row[3..].iter().all(|n| n.parse::<u64>().is_ok()), "{row:?}");
+    }
+    assert_eq!(entries(&folder), ["out"]);
+    fails(2, &["run", trace("teapot.jsonl").to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert!(fails(2, &["study", "backface", "--views", "0"]).contains("--views"));
+    let mut quiet = tessim();
+    let quiet = quiet.args(["-q", "study", "backface", "--views", "1", "--random", "1"]);
+    assert!(quiet.output().unwrap().stdout.is_empty());
+}
+
+#[test]
 fn a_reader_that_leaves_early_is_no_failure() {
     let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("tessim"))
         .args(["scene", "grid", "--rows", "64", "--columns", "64"])

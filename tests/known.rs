@@ -220,6 +220,11 @@ fn laws(c: &Counters, config: &Config) {
         (get(C::PortOverflows), 4 * get(C::PortSaturated)),
         (get(C::BackfaceCulled), get(C::BackfaceTested)),
         (get(C::BackfaceTested), get(C::BackfaceIn)),
+        (get(C::BackfaceTested), get(C::BackfaceFacets)),
+        (
+            get(C::BackfaceFacets),
+            u64::from(config.backface.method.facets()) * get(C::BackfaceTested),
+        ),
         (get(C::LevelClamped), 6 * get(C::LevelPatches)),
         (get(C::LevelNear), 4 * get(C::LevelPatches)),
         (get(C::PlaceReciprocals), 6 * get(C::LevelPatches)),
@@ -263,6 +268,8 @@ fn counters_conserve_what_flows_under_every_configuration() {
             BackfaceMethod::Off,
             BackfaceMethod::NetFacets,
             BackfaceMethod::TangentPlane,
+            BackfaceMethod::NormalCone,
+            BackfaceMethod::HullLiteral,
         ]);
         config.clip.enabled = random.integer(0, 2) > 0;
         config.emit.divide = random.integer(0, 2) > 0;

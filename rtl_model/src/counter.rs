@@ -187,6 +187,7 @@ counters! {
     Backface {
         BackfaceIn "patches.in" Count "patches that reached back-face removal, tested or not", "= clip patches.in - patches.culled";
         BackfaceTested "patches.tested" Count "patches tested: the draw culls, the method is not off and no point was saturated", "culled <= tested <= in";
+        BackfaceFacets "facets.tested" Count "facets, coefficients or directions, by method, that a test in order looks at until one keeps the patch; all of them where none does", "patches.tested <= facets.tested <= patches.tested x those of the method";
         BackfaceCulled "patches.culled" Count "patches removed as back-facing", "in - culled = level patches";
     }
     Level {

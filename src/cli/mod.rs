@@ -13,6 +13,7 @@ mod print;
 mod progress;
 mod run;
 mod scene;
+mod study;
 mod table;
 
 use clap::{Parser, Subcommand};
@@ -43,6 +44,7 @@ enum Command {
     Scene(scene::Args),
     Import(import::Args),
     Pattern(pattern::Args),
+    Study(study::Args),
 }
 
 /// Runs the command that the process was started with.
@@ -75,6 +77,7 @@ impl Cli {
             Command::Scene(args) => scene::run(args),
             Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
+            Command::Study(args) => study::run(args, self.quiet),
         }
     }
 }
@@ -87,7 +90,9 @@ mod tests {
     #[test]
     fn the_definitions_are_consistent_and_every_command_has_two_examples() {
         Cli::command().debug_assert();
-        for command in Cli::command().get_subcommands() {
+        let cli = Cli::command();
+        let study = cli.find_subcommand("study").unwrap();
+        for command in cli.get_subcommands().chain(study.get_subcommands()) {
             let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
             let examples = help.lines().filter(|line| line.contains("tessim ")).count();
             assert!(examples >= 2, "{}: {help}", command.get_name());

@@ -63,7 +63,8 @@ pub struct BlockCosts {
 /// follow from the method when absent.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BackfaceCosts {
-    /// As [`BlockCosts::interval`]; 18 (`net_facets`) or 81 (`tangent_plane`) when absent.
+    /// As [`BlockCosts::interval`]; by method when absent: 18 (`net_facets`), 81
+    /// (`tangent_plane`), 36 (`normal_cone`) or 560 (`hull_literal`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval: Option<u32>,
     /// As [`BlockCosts::latency`]; interval + 8 when absent.
@@ -188,6 +189,10 @@ impl BackfaceCosts {
             BackfaceMethod::NetFacets => Some(18),
             // The tangent plane of a bicubic patch has 9 x 9 coefficients.
             BackfaceMethod::TangentPlane => Some(81),
+            // Its normal has 6 x 6; the points go by beside them.
+            BackfaceMethod::NormalCone => Some(36),
+            // Any three of 16 points may be a facet.
+            BackfaceMethod::HullLiteral => Some(560),
         };
         let (interval, latency) = by_method.map_or(UNTESTED, |facets| {
             let interval = self.interval.unwrap_or(facets);
@@ -250,6 +255,10 @@ mod tests {
         assert_eq!(costs(&config, Block::Clip), (4, 5, 2));
         // 81 + 8 cycles at one in 81 keep two patches in flight.
         assert_eq!(costs(&config, Block::Backface), (81, 89, 2));
+        config.backface.method = BackfaceMethod::NormalCone;
+        assert_eq!(costs(&config, Block::Backface), (36, 44, 2));
+        config.backface.method = BackfaceMethod::HullLiteral;
+        assert_eq!(costs(&config, Block::Backface), (560, 568, 2));
         config.backface.method = BackfaceMethod::NetFacets;
         assert_eq!(costs(&config, Block::Backface), (18, 26, 2));
         config.block.backface.interval = Some(2);

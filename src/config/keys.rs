@@ -102,7 +102,12 @@ const PLAIN: &[Key] = &[
         "eight_curves or bounded",
     ),
     key("clip.enabled", "remove patches wholly outside one clip plane", "true or false"),
-    key("backface.method", "the back-face test", "off, net_facets or tangent_plane"),
+    key(
+        "backface.method",
+        "the back-face test; net_facets and hull_literal remove what a viewer can see, too: \
+         `tessim study backface`",
+        "off, net_facets, tangent_plane, normal_cone or hull_literal",
+    ),
     key(
         "evaluate.scheme",
         "how points are computed; unit sfarti: always de_casteljau",

@@ -6,10 +6,18 @@
 //! Bernstein basis of bidegree (8, 8). All in 256 bits: power coefficients of S have W + 6 bits,
 //! the determinant 3 W + 30, its Bernstein coefficients 3 W + 44.
 
+mod cone;
+mod hull;
+mod sample;
+
 use super::{evaluate, real};
 use crate::config::BackfaceMethod;
 use ethnum::I256;
 use rtl_model::patch::{Patch, Point, View};
+
+pub use cone::{ROUNDING, margin};
+pub use hull::holds_viewer;
+pub use sample::{SAMPLES, faces_viewer};
 
 /// A polynomial of degree up to 8 in v (rows) and u (columns), power basis.
 type Polynomial = [[I256; 9]; 9];
@@ -17,7 +25,8 @@ type Polynomial = [[I256; 9]; 9];
 /// Which coordinates span the viewer's rays.
 const ROWS: [usize; 3] = [0, 1, 3];
 
-/// Whether the patch is removed; `None` where it is not tested.
+/// Whether the patch is removed; `None` where it is not tested. Of `normal_cone` without its
+/// roundings: it may keep a patch whose [`margin`] is at most [`ROUNDING`].
 #[must_use]
 pub fn culled(patch: &Patch, view: &View, method: BackfaceMethod) -> Option<bool> {
     if !patch.cull || patch.saturated {
@@ -31,8 +40,41 @@ pub fn culled(patch: &Patch, view: &View, method: BackfaceMethod) -> Option<bool
         BackfaceMethod::TangentPlane => {
             bernstein(&patch.points).as_flattened().iter().copied().any(faces)
         }
+        BackfaceMethod::NormalCone => {
+            margin(&patch.points, front.as_i64()).is_none_or(|margin| margin < 0.0)
+        }
+        BackfaceMethod::HullLiteral => !holds_viewer(&patch.points),
     };
     Some(!any)
+}
+
+/// How many facets or coefficients of a tested patch come up to the first that faces the viewer, or
+/// all of them where none does; `None` where it is not tested, and for the methods whose golden
+/// models look at none.
+#[must_use]
+pub fn looked_at(patch: &Patch, view: &View, method: BackfaceMethod) -> Option<u32> {
+    if !patch.cull || patch.saturated {
+        return None;
+    }
+    let front = I256::from(if patch.reversed { -view.facing } else { view.facing });
+    let volumes = match method {
+        // Of a facet's triangles, b c d comes last in the block and first here.
+        BackfaceMethod::NetFacets => {
+            let facets = facet_volumes(&patch.points);
+            facets.chunks(4).flat_map(|t| [t[3], t[1], t[2], t[0]]).collect()
+        }
+        BackfaceMethod::TangentPlane => corners_first(&bernstein(&patch.points)),
+        _ => return None,
+    };
+    let away = volumes.iter().take_while(|&&volume| volume * front <= I256::ZERO).count();
+    Some(volumes.len().min(away + 1) as u32)
+}
+
+/// The coefficients row by row, but the four corners before all others.
+fn corners_first(coefficients: &Polynomial) -> Vec<I256> {
+    let mut places: Vec<_> = (0..81).map(|k| [k / 9, k % 9]).collect();
+    places.sort_by_key(|place| place.iter().any(|k| !matches!(k, 0 | 8))); // stable
+    places.into_iter().map(|[k, l]| coefficients[k][l]).collect()
 }
 
 /// Volumes under the viewer of the 36 triangles of the control net: of each facet, those that
@@ -70,8 +112,8 @@ pub fn bernstein(points: &[Point; 16]) -> Polynomial {
         add_product(&mut minor, &s[k], &su[j], I256::MINUS_ONE);
         add_product(&mut determinant, tangent, &minor, I256::ONE);
     }
-    let rows = determinant.map(|row| to_bernstein(&row));
-    transposed(&transposed(&rows).map(|column| to_bernstein(&column)))
+    let rows = determinant.map(|row| to_bernstein(&row, 8));
+    transposed(&transposed(&rows).map(|column| to_bernstein(&column, 8)))
 }
 
 /// S in the power basis: the i-th power's coefficient is C(3,i) times the i-th forward
@@ -115,10 +157,11 @@ fn add_product(sum: &mut Polynomial, a: &Polynomial, b: &Polynomial, sign: I256)
     }
 }
 
-/// C(8,k) c_k = sum over i of C(8-i, k-i) a_i.
-fn to_bernstein(a: &[I256; 9]) -> [I256; 9] {
+/// C(n,k) c_k = sum over i of C(n-i, k-i) a_i for degree n; 0 beyond it.
+fn to_bernstein(a: &[I256; 9], n: usize) -> [I256; 9] {
     std::array::from_fn(|k| {
-        (0..=k).map(|i| a[i] * I256::new(binomial(8 - i, k - i))).fold(I256::ZERO, |x, y| x + y)
+        let terms = (0..=k).filter(|_| k <= n).map(|i| a[i] * I256::new(binomial(n - i, k - i)));
+        terms.fold(I256::ZERO, |x, y| x + y)
     })
 }
 

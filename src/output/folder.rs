@@ -1,7 +1,7 @@
 //! A result folder: built beside its final place and renamed into it when it is complete.
 //!
-//! A folder that is already there is replaced only if everything in it is what a run writes, so
-//! that a mistyped `--out` cannot cost anybody their data.
+//! A folder that is already there is replaced only if everything in it is what a run writes, or the
+//! same study, so that a mistyped `--out` cannot cost anybody their data.
 
 use super::file;
 use crate::error::{Error, Result};
@@ -16,31 +16,58 @@ pub const ALWAYS: [&str; 3] = ["config.toml", "counters.csv", "summary.json"];
 /// What it may hold besides.
 const SOMETIMES: [&str; 5] = ["occupancy.csv", "mesh.ply", "mesh.obj", "mesh.svg", "timeline.json"];
 
+/// What a folder holds, and so what it may replace.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// The files of a run.
+    Run,
+    /// The one file of a study, with its first line.
+    Study { name: &'static str, header: &'static [&'static str] },
+}
+
 /// A result folder under construction.
 #[derive(Debug)]
 pub struct ResultFolder {
     target: PathBuf,
+    kind: Kind,
     /// Holds `new`, and `old` for the moment of the exchange.
     workshop: TempDir,
 }
 
 impl ResultFolder {
-    /// Begins the folder that will be at `target`.
+    /// Begins the folder of a run that will be at `target`.
     ///
     /// # Errors
     /// [`Error::Usage`] when `target` exists and is no tessim result, [`Error::System`] when its
     /// parent does not exist or cannot be written.
     pub fn create(target: &Path) -> Result<Self> {
+        Self::begin(target, Kind::Run)
+    }
+
+    /// Begins the folder of a study that will be at `target`, with one file in it: a CSV of that
+    /// name and those columns. It replaces only its like.
+    ///
+    /// # Errors
+    /// As [`Self::create`].
+    pub fn of_study(
+        target: &Path,
+        name: &'static str,
+        header: &'static [&'static str],
+    ) -> Result<Self> {
+        Self::begin(target, Kind::Study { name, header })
+    }
+
+    fn begin(target: &Path, kind: Kind) -> Result<Self> {
         // A link to a result stands for the result.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
         if target.symlink_metadata().is_ok() {
-            replaceable(&target)?;
+            replaceable(&target, kind)?;
         }
         let mut builder = Builder::new();
         builder.prefix(".tessim-").permissions(file::usual_permissions(0o777));
         let workshop = builder.tempdir_in(file::parent(&target));
         let workshop = workshop.map_err(|error| Error::system(&target, file::reason(&error)))?;
-        let folder = Self { target, workshop };
+        let folder = Self { target, kind, workshop };
         fs::create_dir(folder.path()).map_err(|error| Error::system(&folder.target, error))?;
         Ok(folder)
     }
@@ -70,7 +97,7 @@ impl ResultFolder {
         let failed = |error: io::Error| Error::system(&self.target, error);
         let exists = self.target.symlink_metadata().is_ok();
         if exists {
-            replaceable(&self.target)?;
+            replaceable(&self.target, self.kind)?;
             fs::rename(&self.target, &old).map_err(failed)?;
         }
         if let Err(error) = fs::rename(self.path(), &self.target) {
@@ -83,7 +110,7 @@ impl ResultFolder {
     }
 }
 
-fn replaceable(target: &Path) -> Result<()> {
+fn replaceable(target: &Path, kind: Kind) -> Result<()> {
     let refuse = |why: String| {
         let target = target.display();
         Error::Usage(format!("{target}: {why}; only a tessim result is replaced"))
@@ -95,9 +122,13 @@ fn replaceable(target: &Path) -> Result<()> {
         entries.map(|entry| entry.map(|entry| entry.file_name())).collect::<io::Result<Vec<_>>>()
     });
     let entries = entries.map_err(|error| Error::system(target, error))?;
-    let ours = |name: &str| ALWAYS.contains(&name) || SOMETIMES.contains(&name);
-    for name in ALWAYS {
-        if !entries.iter().any(|entry| entry == name) {
+    let (always, sometimes): (&[&str], &[&str]) = match &kind {
+        Kind::Run => (&ALWAYS, &SOMETIMES),
+        Kind::Study { name, .. } => (std::slice::from_ref(name), &[]),
+    };
+    let ours = |name: &str| always.contains(&name) || sometimes.contains(&name);
+    for name in always {
+        if !entries.iter().any(|entry| entry == *name) {
             return Err(refuse(format!("exists without {name}")));
         }
     }
@@ -107,10 +138,17 @@ fn replaceable(target: &Path) -> Result<()> {
             return Err(refuse(format!("holds {entry}, which no run wrote")));
         }
     }
-    if !super::summary::is_summary(&target.join("summary.json")) {
-        return Err(refuse("its summary.json is not tessim's".to_owned()));
-    }
-    Ok(())
+    let (mark, is_ours) = match kind {
+        Kind::Run => {
+            let mark = "summary.json";
+            (mark, super::summary::is_summary(&target.join(mark)))
+        }
+        Kind::Study { name, header } => {
+            let text = fs::read_to_string(target.join(name)).unwrap_or_default();
+            (name, text.lines().next() == Some(&header.join(",")))
+        }
+    };
+    if is_ours { Ok(()) } else { Err(refuse(format!("its {mark} is not tessim's"))) }
 }
 
 #[cfg(test)]
@@ -147,6 +185,29 @@ mod tests {
         assert!(write_result(&target, b"fifth").unwrap_err().to_string().contains("summary"));
         assert_eq!(fs::read(target.join("config.toml")).unwrap(), b"second");
         assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_study_replaces_the_same_study_and_neither_a_run_nor_another() {
+        let place = tempfile::tempdir().unwrap();
+        let target = place.path().join("out");
+        let write_study = |name, header: &'static [&'static str], rows: &str| {
+            let folder = ResultFolder::of_study(&target, name, header)?;
+            folder.write(name, format!("{}\n{rows}", header.join(",")).as_bytes())?;
+            folder.commit()
+        };
+        write_study("a.csv", &["x", "y"], "1,2\n").unwrap();
+        write_study("a.csv", &["x", "y"], "3,4\n").unwrap();
+        assert_eq!(fs::read_to_string(target.join("a.csv")).unwrap(), "x,y\n3,4\n");
+        assert!(write_study("b.csv", &["x", "y"], "").is_err());
+        assert!(write_study("a.csv", &["x", "z"], "").unwrap_err().to_string().contains("a.csv"));
+        assert!(write_result(&target, b"").is_err());
+        fs::write(target.join("notes.txt"), "mine").unwrap();
+        assert!(write_study("a.csv", &["x", "y"], "").unwrap_err().to_string().contains("notes"));
+        fs::remove_dir_all(&target).unwrap();
+        write_result(&target, b"").unwrap();
+        assert!(write_study("a.csv", &["x", "y"], "").is_err());
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left behind");
     }
 
     #[test]

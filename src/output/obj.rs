@@ -72,7 +72,7 @@ fn write_patch(
 
 #[cfg(test)]
 mod tests {
-    use super::super::space::tests::{HALVED, frame};
+    use super::super::space::tests::frame;
     use super::*;
     use rtl_model::patch::{ONE, Vertex};
 

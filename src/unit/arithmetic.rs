@@ -10,6 +10,7 @@
 //! Divisions and roots are those of a multiplier and an 8-bit table, whose bits Newton's iteration
 //! doubles step by step: `reciprocal`, `quotient`, `root`.
 
+pub mod backface;
 mod level;
 
 use crate::config::{BackfaceMethod, Config, Scheme};
@@ -119,20 +120,10 @@ pub const PIECES: &[Piece] = &[
         times: |f| if f.config.clip.enabled { f.get(C::ClipIn) } else { 0 },
         once: |f| Ops::default().compares(16 * 6, f.w),
     },
-    Piece {
-        block: Block::Backface,
-        meaning: "tangent_plane, a patch tested: 81 coefficients by convolution, 144 cross \
-                  products and 576 dot products of x, y, w, and their signs",
-        times: |f| f.tested(BackfaceMethod::TangentPlane),
-        once: tangent_plane,
-    },
-    Piece {
-        block: Block::Backface,
-        meaning: "net_facets, a patch tested: 36 determinants over the net's 39 differences that \
-                  they need, and their signs",
-        times: |f| f.tested(BackfaceMethod::NetFacets),
-        once: net_facets,
-    },
+    backface::TANGENT_PLANE,
+    backface::NET_FACETS,
+    backface::NORMAL_CONE,
+    backface::HULL_LITERAL,
     level::GRANT,
     level::PROJECT,
     level::FLATNESS,
@@ -258,33 +249,6 @@ fn root(bits: u64) -> Ops {
 /// a (1 - t) + b t of a vec4.
 fn interpolation(f: Formats) -> Ops {
     Ops::default().muls(8, f.w, 17).adds(4, f.w + 18)
-}
-
-/// `backface/tangent.rs`, its definition: no corners first, no estimate.
-fn tangent_plane(f: Formats) -> Ops {
-    // With their binomials, up to 9 and 6, s and the differences take 4 bits more than a position.
-    let (factor, normal, coefficient) = (f.w + 4, 2 * f.w + 9, 3 * f.w + 14);
-    let vectors = |n: u64| 3 * n; // x, y, w
-    Ops::default()
-        .adds(vectors(12 + 12), f.w + 1) // Su and Sv
-        .adds(vectors(12 + 6 + 6), factor) // of S, Su, Sv those with a binomial that 3 divides
-        .muls(144 * 6, factor, factor)
-        .adds(144 * 3 + vectors(144 - 36), normal)
-        .muls(576 * 3, factor, normal)
-        .adds(576 * 2 + 576 - 81, coefficient)
-        .compares(81, coefficient)
-}
-
-/// `net_facets` of `backface.rs`: 9 + 12 differences along the net, 18 across its facets.
-fn net_facets(f: Formats) -> Ops {
-    let (difference, minor, volume) = (f.w + 1, 2 * f.w + 3, 3 * f.w + 3);
-    let facet = Ops::default()
-        .muls(6, difference, difference)
-        .adds(3, minor)
-        .muls(3, f.w, minor)
-        .adds(2, volume)
-        .compares(1, volume);
-    Ops::default().adds(3 * (9 + 12 + 18), difference).with(36, facet)
 }
 
 /// `set_up` of `evaluate/forward.rs`: R has 32 bits, its powers 64, coefficients W + 4, sums of

@@ -97,7 +97,7 @@ impl<F: Front> Run<'_, F> {
             number: self.draws.len() as u32 - 1,
             cull: draw.cull,
             reversed: draw.reversed,
-            state: super::hybrid::state(&self.state, self.config),
+            state: super::state::under(&self.state, self.config),
             to_world: frame.to_world,
             vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
             attributes: source.attributes.clone(),

@@ -7,9 +7,7 @@
 
 use super::chain;
 use super::pipeline::{Front, Placed, Placing};
-use crate::config::Config;
 use rtl_model::level;
-use rtl_model::patch::Level;
 use rtl_model::place::{List, Placement, Segments};
 
 /// What the hybrid has of its own.
@@ -30,26 +28,4 @@ impl Front for Hybrid {
             reciprocals: placement.reciprocals() as u8, // at most 6
         }
     }
-}
-
-/// The tessellation state of a draw: the trace's, with what the configuration overrides.
-///
-/// Levels are quantised to UQ8.16, pixels to UQ16.16 with at least one ulp, both to the nearest.
-#[must_use]
-pub(super) fn state(trace: &level::State, config: &Config) -> level::State {
-    use crate::config::Criterion as Name;
-    let over = &config.level;
-    let fx16 = |value: f64| (value * 65536.0).round_ties_even() as u64;
-    let bound = |value: Option<f64>, other| value.map_or(other, |v| Level::clamped(fx16(v)));
-    let pixels = || fx16(over.pixels.unwrap_or(0.5)).clamp(1, u32::MAX.into()) as u32;
-    let criterion = match over.chosen() {
-        None => trace.criterion,
-        Some(Name::Flatness) => level::Criterion::Flatness { pixels: pixels() },
-        Some(Name::EdgeLength) => level::Criterion::EdgeLength { pixels: pixels() },
-        Some(Name::Fixed) => level::Criterion::Fixed { level: bound(over.level, Level::MIN) },
-    };
-    let max = bound(over.max_level, trace.max);
-    // One of the bounds may come from the trace and the other from the configuration: the greatest
-    // wins.
-    level::State { criterion, min: bound(over.min_level, trace.min).min(max), max }
 }

@@ -19,6 +19,7 @@ pub mod pattern;
 mod pipeline;
 mod run;
 mod sfarti;
+mod state;
 mod tokens;
 
 use crate::config::{Config, Unit};

@@ -118,8 +118,10 @@ impl<'a, F: Front> Pipeline<'a, F> {
             return false;
         }
         counters.add(Counter::BackfaceIn, 1);
-        let verdict = backface::accept(patch, &self.view, self.config.backface.method);
+        let method = self.config.backface.method;
+        let (verdict, facets) = backface::accept(patch, &self.view, method);
         counters.add(Counter::BackfaceTested, u64::from(verdict != Verdict::Untested));
+        counters.add(Counter::BackfaceFacets, facets.into());
         counters.add(Counter::BackfaceCulled, u64::from(verdict == Verdict::Culled));
         self.work.tested = verdict != Verdict::Untested;
         self.work.fate = Fate::Culled;

@@ -5,7 +5,7 @@ use super::batch::{self, Batch, Tally};
 use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
 use super::pipeline::Front;
-use super::{blocks, chain, work};
+use super::{blocks, chain, state, work};
 use crate::config::Config;
 use crate::error::Result;
 use crate::link::{self, Transfer};
@@ -15,7 +15,7 @@ use crate::trace::command::{Command, Frame, Points, Tessellation};
 use rtl_model::counter::standard::{Stage, Work};
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
-use rtl_model::patch::{Level, View};
+use rtl_model::patch::View;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ impl<'a, F: Front> Run<'a, F> {
             sink,
             points: HashMap::new(),
             attributes: HashMap::new(),
-            state: state(&Tessellation::default()),
+            state: state::of(&Tessellation::default()),
             frame: None,
             patches: 0,
             draws: Vec::new(),
@@ -94,7 +94,7 @@ impl<'a, F: Front> Run<'a, F> {
                 Ok(())
             }
             Command::Tessellation(t) => {
-                self.state = state(t);
+                self.state = state::of(t);
                 Ok(())
             }
             Command::Attributes(attributes) => {
@@ -213,11 +213,4 @@ impl<'a, F: Front> Run<'a, F> {
         }
         Ok(())
     }
-}
-
-/// The tessellation state that a command sets.
-fn state(command: &Tessellation) -> State {
-    let level = |fx16: u32| Level::clamped(fx16.into());
-    let (min, max) = (level(command.min_level), level(command.max_level));
-    State { criterion: command.criterion, min, max }
 }

@@ -87,15 +87,27 @@ pub(crate) fn clip(ledger: &mut Ledger, patch: &Patch, view: &View) {
 }
 
 pub(crate) fn backface(ledger: &mut Ledger, patch: &Patch, view: &View) {
+    let front = if patch.reversed { -view.facing } else { view.facing };
+    let margin = golden::backface::margin(&patch.points, front);
+    let close = margin.is_some_and(|margin| margin.abs() < golden::backface::ROUNDING);
     let mut culled = false;
     for (quantity, method) in [
         (Q::FacetsVerdict, BackfaceMethod::NetFacets),
         (Q::TangentVerdict, BackfaceMethod::TangentPlane),
+        (Q::ConeVerdict, BackfaceMethod::NormalCone),
+        (Q::HullVerdict, BackfaceMethod::HullLiteral),
     ] {
-        let verdict = backface::accept(patch, view, method);
+        let (verdict, facets) = backface::accept(patch, view, method);
         let got = (verdict != Verdict::Untested).then_some(verdict == Verdict::Culled);
-        ledger.equal(quantity, got, golden::backface::culled(patch, view, method));
-        culled = got == Some(true);
+        if method != BackfaceMethod::NormalCone || !close {
+            ledger.equal(quantity, got, golden::backface::culled(patch, view, method));
+        }
+        if let Some(want) = golden::backface::looked_at(patch, view, method) {
+            ledger.equal(Q::FacetsTested, facets, want);
+        }
+        let conservative =
+            matches!(method, BackfaceMethod::TangentPlane | BackfaceMethod::NormalCone);
+        culled |= conservative && got == Some(true);
     }
     let rows = patch.points.map(|[x, y, _, w]| [x, y, w]);
     let got = backface::coefficients::<I256>(&rows).map(|row| row.map(|c| c * I256::new(9)));

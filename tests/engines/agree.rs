@@ -228,7 +228,7 @@ fn any(random: &mut Random) -> Config {
         format!("memory.channels={}", random.of(["separate", "shared"])),
         format!("memory.fifo={}", random.integer(1, 5)),
         format!("vertex_shader.to_memory={}", random.of(["false", "true"])),
-        format!("backface.method={}", random.of(["off", "net_facets", "tangent_plane"])),
+        format!("backface.method={}", random.of(METHODS)),
         format!("clip.enabled={}", random.of(["false", "true"])),
         format!("evaluate.scheme={}", random.of(["forward", "mixed", "de_casteljau"])),
         format!("block.evaluate.setup={}", random.integer(0, 40)),
@@ -249,6 +249,8 @@ fn any(random: &mut Random) -> Config {
     }
     set(&settings.iter().map(String::as_str).collect::<Vec<_>>())
 }
+
+const METHODS: [&str; 5] = ["off", "net_facets", "tangent_plane", "normal_cone", "hull_literal"];
 
 #[test]
 fn timed_and_stepped_agree_under_any_configuration() {

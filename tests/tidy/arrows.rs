@@ -5,7 +5,8 @@
 use crate::lexer::{self, Token, begins};
 
 /// A part of `src`, and the parts that it may import besides itself and the leaves. Link sees
-/// traces: what crosses it is their commands.
+/// traces: what crosses it is their commands. A study draws scenes of its own and takes their
+/// points through the shader.
 const PARTS: [(&str, &[&str]); 9] = [
     ("trace", &[]),
     ("shader", &[]),
@@ -14,7 +15,7 @@ const PARTS: [(&str, &[&str]); 9] = [
     ("golden", &["trace"]),
     ("gpu", &["trace"]),
     ("unit", &["trace", "shader", "link"]),
-    ("study", &["unit", "golden", "gpu", "output"]),
+    ("study", &["trace", "shader", "unit", "golden", "gpu", "output"]),
     ("cli", &["trace", "shader", "link", "output", "golden", "gpu", "unit", "study"]),
 ];
 

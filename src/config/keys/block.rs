@@ -94,7 +94,8 @@ pub(super) const KEYS: &[Key] = keys! {
     "backface" {
         interval: "an item is a patch that is tested; any other takes 1 cycle"
             absent ("81", "by method, one a cycle: 18 facets of the net (net_facets), 81 \
-                     coefficients (tangent_plane)"),
+                     coefficients (tangent_plane), 36 coefficients of the normal \
+                     (normal_cone), 560 triples of points (hull_literal)"),
         latency: "of a patch that is tested; any other takes 1 cycle"
             absent ("89", "interval + 8: three multipliers deep, and registers"),
         in_flight: "2",

@@ -1,0 +1,8 @@
+//! Studies: questions about a design that take many runs of one block, each with its table.
+//!
+//! In come options, out comes a table: as text for the terminal and the README, as CSV with
+//! integers only for everything else. A study is a function of its options: inputs are seeded, and
+//! any number of threads gives the same bytes.
+
+pub mod backface;
+mod random;
