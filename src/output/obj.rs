@@ -72,7 +72,7 @@ fn write_patch(
 
 #[cfg(test)]
 mod tests {
-    use super::super::space::tests::frame;
+    use super::super::space::tests::{HALVED, frame};
     use super::*;
     use rtl_model::patch::{ONE, Vertex};
 
@@ -86,6 +86,7 @@ mod tests {
             reversed: false,
             vertices: &vertices,
             triangles: &[[0, 1, 2]],
+            to_world: &HALVED,
             ..PatchMesh::default()
         };
         write_patch(&mut text, 3, &frame(), &mesh).unwrap();
