@@ -5,6 +5,7 @@
 //! prints goes to standard output; a reader that leaves early ends the command quietly.
 
 mod config;
+mod convert;
 mod counters;
 mod import;
 mod info;
@@ -41,6 +42,7 @@ enum Command {
     Config(config::Args),
     Counters(counters::Args),
     Scene(scene::Args),
+    Convert(convert::Args),
     Import(import::Args),
     Pattern(pattern::Args),
 }
@@ -73,6 +75,7 @@ impl Cli {
             Command::Config(args) => config::run(args),
             Command::Counters(args) => counters::run(args),
             Command::Scene(args) => scene::run(args),
+            Command::Convert(args) => convert::run(args),
             Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
         }

@@ -5,13 +5,12 @@
 //! value is one that its format has: `unorm8` numbers are rounded to the nearest of their 256 when
 //! they are read, so what is computed with is what crosses the link.
 
+use super::check::{NAME_MAX, is_attribute_name};
 use super::field::{Object, choice, integer32, real32};
 use super::json::{Found, Value};
 
 /// The most components of a corner.
 pub const COMPONENTS_MAX: usize = 64;
-/// The most bytes of an attribute's name.
-const NAME_MAX: usize = 64;
 
 /// The attributes of some corners.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,6 +152,13 @@ impl AttributeFormat {
         self.kind.bytes() * self.components as u64
     }
 
+    /// Whether it has this very value for a component.
+    #[must_use]
+    pub fn has(self, value: f32) -> bool {
+        let (least, most, _) = self.kind.range();
+        (least..=most).contains(&value) && self.nearest(value) == value
+    }
+
     /// The nearest value that it has for a component.
     #[must_use]
     pub fn nearest(self, value: f32) -> f32 {
@@ -177,10 +183,7 @@ fn layout(list: Value<'_>) -> Found<Vec<Attribute>> {
         let object = Object::read(value, &["name", "format"])?;
         let key = object.require("name", "the attribute's name")?;
         let name = key.string("a name")?.into_owned();
-        let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
-        let word =
-            name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit());
-        if !word || name.len() > NAME_MAX {
+        if !is_attribute_name(&name) {
             return Err(key.expected(format_args!(
                 "letters, digits and underscores, not starting with a digit, at most {NAME_MAX}"
             )));
