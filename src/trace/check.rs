@@ -181,8 +181,10 @@ fn draw(draw: &Draw, state: &State) -> Checked {
     let indices = draw.indices.as_deref();
     match (draw.primitive, indices) {
         (Primitive::Indexed { count }, Some(indices)) => index_rows(indices, count)?,
-        (Primitive::Indexed { .. }, None) => return Err("indices: found none".into()),
-        (_, Some(_)) => return Err("indices: found some, which the primitive has not".into()),
+        (Primitive::Indexed { .. }, None) => {
+            return Err("indices: found none, expected 16 a patch".into());
+        }
+        (_, Some(_)) => return Err("indices: found some, expected none with this primitive".into()),
         (_, None) => {}
     }
     enough_points(draw.primitive, indices, (draw.points, draw.first), state)
@@ -196,7 +198,7 @@ fn draw(draw: &Draw, state: &State) -> Checked {
                 .map_err(|lack| format!("attributes: {}", lack.reason(id)))?;
         }
         (None, Some(indices)) if !indices.corners.is_empty() => {
-            return Err("attribute_indices: found some, which go with `attributes`".into());
+            return Err("attribute_indices: found some, expected none without `attributes`".into());
         }
         (None, _) => {}
     }

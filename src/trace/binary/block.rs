@@ -216,7 +216,7 @@ impl<R: Read> Blocks<R> {
             found => {
                 let found = found.ok().flatten().map_or("none".into(), |size| size.to_string());
                 return Err(self.error(format!(
-                    "the payload states the size {found}, expected {content} as the block does"
+                    "found a payload that states the size {found}, expected {content} as the block does"
                 )));
             }
         }
@@ -224,8 +224,12 @@ impl<R: Read> Blocks<R> {
         let made = self.decompressor.decompress_to_buffer(&self.payload, &mut self.content);
         match made {
             Ok(made) if made == content => Ok(()),
-            Ok(made) => Err(self.error(format!("found {made} bytes, expected {content}"))),
-            Err(reason) => Err(self.error(format!("found a payload that zstd refuses: {reason}"))),
+            Ok(made) => {
+                Err(self.error(format!("found {made} bytes of content, expected {content}")))
+            }
+            Err(reason) => Err(self.error(format!(
+                "found a payload that zstd refuses, expected a frame of it: {reason}"
+            ))),
         }
     }
 
