@@ -12,6 +12,7 @@ use rtl_model::level::Criterion;
 use rtl_model::patch::Level;
 use std::cell::Cell;
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
+use std::path::Path;
 use std::sync::Arc;
 use tessim::config::{Config, Unit};
 use tessim::error::{Error, Place, Result};
@@ -296,4 +297,76 @@ fn a_long_command_has_a_block_of_its_own_up_to_the_limit() {
     writer.write(&header).expect("memory takes all");
     let error = writer.write(&points(most + 8)).expect_err("beyond the limit");
     assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
+}
+
+/// A trace with every kind of command and of what it may hold, short enough to be looked at.
+fn small() -> Vec<Command> {
+    let identity = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+    let draw = |fields: &str| format!("{{\"draw\":{{\"primitive\":{fields}}}}}\n");
+    let points = "[1,-0,1e-45],".repeat(27) + "[0.1,2,3]";
+    let text = [
+        "{\"tessim\":1,\"title\":\"t\",\"source\":\"s\",\"licence\":\"ä\"}\n".to_owned(),
+        format!("{{\"points\":{{\"id\":300,\"xyz\":[{points}]}}}}\n"),
+        "{\"points\":{\"id\":1,\"resident\":true,\"xyzw\":[[1,2,3,0.5]]}}\n".to_owned(),
+        "{\"attributes\":{\"id\":2,\"layout\":[{\"name\":\"c\",\"format\":\"unorm8\"},\
+         {\"name\":\"uv\",\"format\":\"float16x2\"}],\
+         \"values\":[[0,1,2],[1,3,4],[1,5,6],[1,7,8]]}}\n"
+            .to_owned(),
+        format!(
+            "{{\"frame\":{{\"viewport\":[640,480],\"view\":{identity},\"projection\":{identity},\
+             \"depth\":\"minus_one_to_one\",\"range\":{{\"clip\":16,\"object\":0.25}}}}}}\n"
+        ),
+        "{\"tessellation\":{\"criterion\":\"edge_length\",\"pixels\":2}}\n".to_owned(),
+        draw("\"patches\",\"points\":300,\"count\":1,\"attributes\":2"),
+        draw(&format!("\"mesh\",\"points\":300,\"rows\":1,\"columns\":1,\"model\":{identity}")),
+        "{\"tessellation\":{\"criterion\":\"fixed\",\"level\":2.5}}\n".to_owned(),
+        draw("\"strip\",\"points\":300,\"count\":2,\"front\":\"reversed\""),
+        format!(
+            "{{\"frame\":{{\"viewport\":[1,1],\"view\":{identity},\
+             \"projection\":{identity}}}}}\n"
+        ),
+        draw("\"fan\",\"points\":300,\"count\":1,\"cull\":false,\"first\":9"),
+        draw("\"fan\",\"points\":300,\"count\":1,\"encoding\":\"full\""),
+        "{\"tessellation\":{\"criterion\":\"flatness\",\"pixels\":0.5,\"max_level\":3}}\n"
+            .to_owned(),
+        draw(
+            "\"indexed_mesh\",\"points\":300,\"attributes\":2,\
+             \"indices\":[[0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15]],\
+             \"attribute_indices\":[[3,2,1,0]],\"index_format\":\"uint32\"",
+        ),
+        "{\"end\":{}}\n".to_owned(),
+    ];
+    let text = text.concat();
+    let commands = read::Reader::new(text.as_bytes(), "small", ".");
+    commands.map(|c| c.expect("it is well-formed").command).collect()
+}
+
+/// What the blocks of commands hold, one after the other.
+fn content(bytes: &[u8]) -> Vec<u8> {
+    let parts = parts(bytes);
+    let starts = parts.iter().map(|at| *at as usize);
+    let blocks = starts.filter(|at| bytes.get(*at) == Some(&1));
+    let size = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"));
+    let payload = |at: usize| &bytes[at + 28..at + 28 + size(at + 16) as usize];
+    blocks.flat_map(|at| zstd::decode_all(payload(at)).expect("a frame of zstd")).collect()
+}
+
+/// The format does not change unless its version does: what was written before is read, and what is
+/// written now has the same content. (What zstd makes of it may change with zstd.)
+#[test]
+fn the_format_is_what_it_was() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/vectors/binary_trace.txt");
+    let commands = small();
+    let file = blocks(&commands);
+    let now = format!("{}\n{}\n", hex::encode(content(&file)), hex::encode(&file));
+    if std::env::var_os("UPDATE_EXPECT").is_some_and(|v| v == "1") {
+        std::fs::write(&path, &now).expect("the vector can be written");
+    }
+    let golden = std::fs::read_to_string(&path).expect("the vector");
+    let lines: Vec<Vec<u8>> =
+        golden.lines().map(|line| hex::decode(line).expect("hexadecimal")).collect();
+    assert_eq!(lines.len(), 2);
+    assert_eq!(hex::encode(content(&file)), hex::encode(&lines[0]));
+    let before = read(&lines[1]).expect("it was well-formed");
+    assert_eq!(format!("{before:?}"), format!("{commands:?}"));
 }

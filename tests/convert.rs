@@ -1,7 +1,5 @@
 //! `tessim convert` as users meet it, and the binary form with the other commands.
 
-#![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
-
 use assert_cmd::Command;
 use predicates::prelude::*;
 use std::fs;

@@ -45,8 +45,8 @@ pub(crate) struct Args {
     /// The frame whose mesh is written, from 0 [default: 0]
     #[arg(long, value_name = "N", requires = "mesh")]
     frame: Option<u64>,
-    /// Run this frame alone, from 0: as a trace of its own, whose only frame is 0. What is live where
-    /// the frame begins crosses the link before it and is counted in it
+    /// Run this frame alone, from 0: as a trace of its own, whose only frame is 0. What is live
+    /// where the frame begins crosses the link before it and is counted in it
     #[arg(long, value_name = "N", conflicts_with = "frame")]
     only_frame: Option<u64>,
     /// Write the results into this folder; one that exists is replaced only if a run wrote it

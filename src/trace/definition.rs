@@ -1,5 +1,5 @@
-//! Definitions: the commands whose effect lasts until another of the same name replaces them, and so
-//! makes up the state that is live where a frame begins.
+//! Definitions: the commands whose effect lasts until another of the same name replaces them, and
+//! so makes up the state that is live where a frame begins.
 
 use super::command::Command;
 

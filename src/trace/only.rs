@@ -1,6 +1,6 @@
-//! Only: the commands of a trace in; out come those that one of its frames needs, as a trace of that
-//! frame alone: the header, the definitions that are live where the frame begins, in their order,
-//! the frame and what follows it up to the next, and an end.
+//! Only: the commands of a trace in; out come those that one of its frames needs, as a trace of
+//! that frame alone: the header, the definitions that are live where the frame begins, in their
+//! order, the frame and what follows it up to the next, and an end.
 //!
 //! What was defined before the frame crosses the link before it here, and so is counted in it. The
 //! trace is read to its end, so that what was run is part of a valid one.

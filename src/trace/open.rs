@@ -1,5 +1,5 @@
-//! Open: a file or any bytes in, the commands of the trace out, whichever form it has: which is told
-//! from its first bytes, never from its name.
+//! Open: a file or any bytes in, the commands of the trace out, whichever form it has: which is
+//! told from its first bytes, never from its name.
 
 use super::binary;
 use super::only::OnlyFrame;
@@ -23,7 +23,7 @@ pub struct Trace {
 }
 
 enum Form {
-    Text(Reader<Input>),
+    Text(Box<Reader<Input>>),
     Binary(Box<binary::read::Reader<Input>>),
     /// One frame of a binary trace, found by its index.
     Frame(Box<binary::seek::FrameReader<File>>),
@@ -87,14 +87,14 @@ impl Trace {
         let form = if is_binary {
             Form::Binary(Box::new(binary::read::Reader::new(whole, file, folder)))
         } else {
-            Form::Text(Reader::new(whole, file, folder))
+            Form::Text(Box::new(Reader::new(whole, file, folder)))
         };
         Ok(Self { form, only: None })
     }
 
     /// The hash by which the trace is known, in hexadecimal, once all commands have been read:
-    /// SHA-256 of its text, or of all bytes of a binary trace before its trailer, which are the same
-    /// whether all of it was read or one frame.
+    /// SHA-256 of its text, or of all bytes of a binary trace before its trailer, the same whether
+    /// all of it was read or one frame.
     #[must_use]
     pub fn hash(&self) -> String {
         match &self.form {

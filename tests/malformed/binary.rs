@@ -80,7 +80,7 @@ fn check(name: &str, error: Option<Error>, byte: u64, wanted: &[&str]) {
     assert!(message.chars().count() < 1000, "{name}: {} characters", message.len());
 }
 
-/// One case: a name, the commands after header, frame and sixteen points, and what the message says.
+/// A name, the command after header, frame and sixteen points, and what the message says.
 type Case<'a> = (&'a str, Command, &'a [&'a str]);
 
 /// Each command is refused, in the block after the header's.

@@ -216,7 +216,8 @@ impl<R: Read> Blocks<R> {
             found => {
                 let found = found.ok().flatten().map_or("none".into(), |size| size.to_string());
                 return Err(self.error(format!(
-                    "found a payload that states the size {found}, expected {content} as the block does"
+                    "found a payload that states the size {found}, expected {content} as the block \
+                     does"
                 )));
             }
         }

@@ -14,18 +14,18 @@
 //!                      index u64, frames u64, CRC-32 u32 of these 52
 //! ```
 //!
-//! The content of a block of commands (kind 1) is whole commands in postcard, `wire.rs`, the last of
-//! all being the end. The first block holds the header alone. A block is closed before it outgrows
-//! [`BLOCK_BYTES`]; a command that is longer by itself has a block of its own, up to
-//! [`CONTENT_BYTES_MAX`]. The content of a block of the index (kind 2) is whole records, `index.rs`:
-//! for each frame where it begins, and before that the definitions that became live since the frame
-//! before. So what one frame needs is found by reading the trailer, the index up to it, the blocks
-//! of what is live, and its own. Kind 3 is the trailer.
+//! The content of a block of commands (kind 1) is whole commands in postcard, `wire.rs`, the last
+//! of all being the end. The first block holds the header alone. A block is closed before it
+//! outgrows [`BLOCK_BYTES`]; a command that is longer by itself has a block of its own, up to
+//! [`CONTENT_BYTES_MAX`]. The content of a block of the index (kind 2) is whole records,
+//! `index.rs`: for each frame where it begins, and before that the definitions that became live
+//! since the frame before. So what one frame needs is found by reading the trailer, the index up to
+//! it, the blocks of what is live, and its own. Kind 3 is the trailer.
 //!
 //! A block that says where it begins can be neither moved nor left out. Sizes are checked against
 //! their limits before anything is allocated, and zstd is given no more room than the size stated.
-//! The same commands always make the same bytes, for a given version of zstd: the level is fixed and
-//! nothing else goes in.
+//! The same commands always make the same bytes, for a given version of zstd: the level is fixed
+//! and nothing else goes in.
 
 mod block;
 mod index;
@@ -63,8 +63,8 @@ pub(crate) struct Place {
     pub offset: u32,
 }
 
-/// Whether a file that begins with `head` is meant to be a binary trace. A few bytes of the preamble
-/// may be damaged; then the reader says which.
+/// Whether a file that begins with `head` is meant to be a binary trace. A few bytes of the
+/// preamble may be damaged; then the reader says which.
 #[must_use]
 pub fn is_binary(head: &[u8]) -> bool {
     let head = &head[..head.len().min(PREAMBLE.len())];

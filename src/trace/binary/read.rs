@@ -44,8 +44,8 @@ impl<R: Read> Reader<R> {
         }
     }
 
-    /// SHA-256 of the bytes read so far, in hexadecimal: of all but the trailer, which holds it too,
-    /// once [`Command::End`] has been returned.
+    /// SHA-256 of the bytes read so far, in hexadecimal: of all but the trailer, which holds it
+    /// too, once [`Command::End`] has been returned.
     #[must_use]
     pub fn hash(&self) -> String {
         hex::encode(self.decoder.blocks.hash())
