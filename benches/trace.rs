@@ -1,12 +1,24 @@
-//! How fast a text trace is read: bytes a second over long lines of points, over draws with many
-//! instances, and over lines as short as the format has.
+//! How fast a trace is read: bytes of its text a second over long lines of points, over draws with
+//! many instances, and over lines as short as the format has; and how fast the same trace in the
+//! binary form, still by the bytes of its text, so that the two compare.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use tessim::trace::binary;
 use tessim::trace::command::Tessellation;
 use tessim::trace::read::Reader;
 use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::teacups::Teacups;
+
+/// The same trace in the binary form.
+fn blocks(text: &[u8]) -> Vec<u8> {
+    let mut writer = binary::write::Writer::new(Vec::new()).expect("a compressor");
+    for located in Reader::new(text, "bench.jsonl", ".") {
+        let command = located.expect("the trace is well-formed").command;
+        writer.write(&command).expect("memory takes all");
+    }
+    writer.into_inner()
+}
 
 fn read(criterion: &mut Criterion) {
     let tessellation = Tessellation::default();
@@ -28,6 +40,15 @@ fn read(criterion: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 for command in Reader::new(&text[..], "bench.jsonl", ".") {
+                    black_box(command.expect("the trace is well-formed"));
+                }
+            });
+        });
+        let blocks = blocks(&text);
+        println!("{name}: {} bytes of text, {} in the binary form", text.len(), blocks.len());
+        group.bench_function(format!("{name}, binary"), |b| {
+            b.iter(|| {
+                for command in binary::read::Reader::new(&blocks[..], "bench.tsb", ".") {
                     black_box(command.expect("the trace is well-formed"));
                 }
             });

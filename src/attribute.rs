@@ -154,6 +154,13 @@ impl AttributeFormat {
         (least, most)
     }
 
+    /// Whether it has this very value for a component.
+    #[must_use]
+    pub fn has(self, value: f32) -> bool {
+        let (least, most) = self.range();
+        (least..=most).contains(&value) && self.nearest(value) == value
+    }
+
     /// The nearest value that it has for a component.
     #[must_use]
     pub fn nearest(self, value: f32) -> f32 {

@@ -15,9 +15,9 @@
 //! use rtl_model::counter::Counter;
 //! use tessim::config::Config;
 //! use tessim::sink::NoMesh;
-//! use tessim::trace::read::Reader;
+//! use tessim::trace::open::Trace;
 //!
-//! let trace = Reader::open("traces/teapot.jsonl")?;
+//! let trace = Trace::open("traces/teapot.jsonl")?;
 //! let commands = trace.map(|located| Ok(located?.command));
 //! let report = tessim::simulate(commands, &Config::default(), &mut NoMesh)?;
 //! assert_eq!(report.total(Counter::LinkControlPoints), 32 * 16 * 12);

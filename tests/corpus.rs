@@ -24,8 +24,23 @@ fn read_text() {
 }
 
 #[test]
+fn read_binary() {
+    run("read_binary", checks::read_binary);
+}
+
+#[test]
 fn import_bpt() {
     run("import_bpt", checks::import_bpt);
+}
+
+/// The binary form of a text trace.
+fn blocks(text: &[u8]) -> Vec<u8> {
+    let mut writer = tessim::trace::binary::write::Writer::new(Vec::new()).expect("a compressor");
+    for located in tessim::trace::read::Reader::new(text, "t", ".") {
+        let command = located.expect("a shipped trace").command;
+        writer.write(&command).expect("memory takes all");
+    }
+    writer.into_inner()
 }
 
 /// The shipped traces hold to the same.
@@ -38,6 +53,7 @@ fn shipped_traces() {
         if path.extension().is_some_and(|e| e == "jsonl") {
             let bytes = std::fs::read(&path).expect("a trace can be read");
             assert!(checks::read_text(&bytes), "{}", path.display());
+            assert!(checks::read_binary(&blocks(&bytes)), "{}", path.display());
             count += 1;
         }
     }

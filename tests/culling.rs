@@ -20,14 +20,14 @@ use tessim::config::Config;
 use tessim::golden::backface::faces_viewer;
 use tessim::shader::control_point;
 use tessim::trace::command::{Command, Frame};
-use tessim::trace::read::Reader;
+use tessim::trace::open::Trace;
 use tessim::unit::FrameState;
 
 /// The patches of a shipped trace and whether they face inward.
 fn model(name: &str) -> (Vec<[[f32; 4]; 16]>, bool) {
     let mut points = Vec::new();
     let mut reversed = false;
-    for located in Reader::open(format!("traces/{name}.jsonl")).expect("a shipped trace") {
+    for located in Trace::open(format!("traces/{name}.jsonl")).expect("a shipped trace") {
         match located.expect("a shipped trace is well-formed").command {
             Command::Points(p) => {
                 p.source.read(0, p.source.len() as usize, &mut points).expect("inline points");

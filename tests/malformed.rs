@@ -1,6 +1,8 @@
 //! Malformed traces and models: each must be refused at its place, in words that name what was
 //! found and expected.
 
+#[path = "malformed/binary.rs"]
+mod binary;
 #[path = "malformed/bpt.rs"]
 mod bpt;
 #[path = "malformed/files.rs"]

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use tessim::error::Result;
 use tessim::output::table::printable;
 use tessim::trace::command::{Command, Header};
-use tessim::trace::read::Reader;
+use tessim::trace::open::Trace;
 
 /// Describe a trace and check it to its end
 #[derive(Debug, clap::Args)]
@@ -19,7 +19,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<()> {
-    let mut reader = Reader::open(&args.trace)?;
+    let mut reader = Trace::open(&args.trace)?;
     let mut tally = Tally::default();
     for located in reader.by_ref() {
         tally.command(located?.command);

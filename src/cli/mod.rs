@@ -5,6 +5,7 @@
 //! prints goes to standard output; a reader that leaves early ends the command quietly.
 
 mod config;
+mod convert;
 mod counters;
 mod import;
 mod info;
@@ -42,6 +43,7 @@ enum Command {
     Config(config::Args),
     Counters(counters::Args),
     Scene(scene::Args),
+    Convert(convert::Args),
     Import(import::Args),
     Pattern(pattern::Args),
     Study(study::Args),
@@ -75,6 +77,7 @@ impl Cli {
             Command::Config(args) => config::run(args),
             Command::Counters(args) => counters::run(args),
             Command::Scene(args) => scene::run(args),
+            Command::Convert(args) => convert::run(args),
             Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
             Command::Study(args) => study::run(args, self.quiet),

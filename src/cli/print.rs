@@ -24,6 +24,19 @@ pub(crate) fn to_file_or_stdout(
     file.commit()
 }
 
+/// Writes bytes, which nobody takes for text with colours, to the file at `path`, which appears
+/// when it is complete, or to standard output for `-`.
+pub(crate) fn bytes_to_file_or_stdout(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    if path != Path::new("-") {
+        return to_file_or_stdout(Some(path), write);
+    }
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    write(&mut out).and_then(|()| out.flush()).map_err(error)
+}
+
 /// Writes to standard output through a buffer.
 pub(crate) fn with(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = io::BufWriter::new(stdout());

@@ -18,7 +18,7 @@ use tessim::output::{counters, occupancy, summary, table};
 use tessim::report::Report;
 use tessim::sink::{NoMesh, Sink};
 use tessim::trace::command::{Command, Header};
-use tessim::trace::read::Reader;
+use tessim::trace::open::Trace;
 use tessim::unit::simulate;
 
 /// Run a trace through a unit
@@ -45,6 +45,10 @@ pub(crate) struct Args {
     /// The frame whose mesh is written, from 0 [default: 0]
     #[arg(long, value_name = "N", requires = "mesh")]
     frame: Option<u64>,
+    /// Run this frame alone, from 0: as a trace of its own, whose only frame is 0. What is live
+    /// where the frame begins crosses the link before it and is counted in it
+    #[arg(long, value_name = "N", conflicts_with = "frame")]
+    only_frame: Option<u64>,
     /// Write the results into this folder; one that exists is replaced only if a run wrote it
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -80,7 +84,10 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let mut config = args.layered.configuration()?;
     config.engine = args.engine.unwrap_or(config.engine);
     let pool = pool(args.threads)?;
-    let reader = Reader::open(&args.trace)?;
+    let reader = match args.only_frame {
+        None => Trace::open(&args.trace)?,
+        Some(frame) => Trace::open_frame(&args.trace, frame)?,
+    };
     let folder = args.out.as_deref().map(ResultFolder::create).transpose()?;
     let results = args.simulate(reader, &config, &pool, folder.as_ref(), quiet)?;
     let Results { report, provenance } = results;
@@ -108,7 +115,7 @@ impl Args {
 
     fn simulate(
         &self,
-        mut reader: Reader<Box<dyn std::io::BufRead + Send>>,
+        mut reader: Trace,
         config: &Config,
         pool: &ThreadPool,
         folder: Option<&ResultFolder>,
@@ -155,10 +162,11 @@ fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool> {
     pool.map_err(|error| Error::system("threads", std::io::Error::other(error)))
 }
 
-fn provenance<R: std::io::BufRead>(header: Header, reader: &Reader<R>) -> Result<Provenance> {
+fn provenance(header: Header, reader: &Trace) -> Result<Provenance> {
     let Header { title, source, licence } = header;
     let files = reader
         .data_files()
+        .into_iter()
         .map(|file| Ok(DataFile { name: file.name.clone(), sha256: file.sha256()? }));
     let files = files.collect::<Result<_>>()?;
     Ok(Provenance { title, source, licence, sha256: reader.hash(), files })

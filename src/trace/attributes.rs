@@ -1,12 +1,10 @@
 //! Attributes: the text of a table in, the table out.
 
+use super::check::{NAME_MAX, is_attribute_name};
 use super::field::{Object, choice, integer32, real32};
 use super::json::{Found, Value};
 
 pub use crate::attribute::{Attribute, AttributeFormat, AttributeTable, COMPONENTS_MAX};
-
-/// The most bytes of an attribute's name.
-const NAME_MAX: usize = 64;
 
 /// A command's id, table and whether it is resident.
 pub(crate) fn attributes(value: Value<'_>) -> Found<(u32, AttributeTable, bool)> {
@@ -25,10 +23,7 @@ fn layout(list: Value<'_>) -> Found<Vec<Attribute>> {
         let object = Object::read(value, &["name", "format"])?;
         let key = object.require("name", "the attribute's name")?;
         let name = key.string("a name")?.into_owned();
-        let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
-        let word =
-            name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit());
-        if !word || name.len() > NAME_MAX {
+        if !is_attribute_name(&name) {
             return Err(key.expected(format_args!(
                 "letters, digits and underscores, not starting with a digit, at most {NAME_MAX}"
             )));

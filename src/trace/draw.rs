@@ -1,15 +1,13 @@
 //! Draw: the text of a draw in, the draw out, checked against the frame, the points and the
 //! attributes that came before.
 
+use super::check::{self, Lack, PATCHES_MAX};
 use super::command::{Command, Draw, FanEncoding, Primitive};
 use super::field::{Object, choice, flag, integer, integer32, matrix};
 use super::indices::{Indices, indices};
-use super::json::{Found, Value};
-use super::state::{State, ids};
+use super::json::{Fault, Found, Value};
+use super::state::State;
 use std::sync::Arc;
-
-/// The most patches of one instance.
-pub(crate) const PATCHES_MAX: u64 = 1 << 24;
 
 const FIELDS: &[&str] = &[
     "primitive",
@@ -63,11 +61,12 @@ pub(crate) fn draw(value: Value<'_>, state: &State) -> Found<Command> {
         return Err(value.refuse("found a draw before any frame, expected a frame first"));
     }
     let (primitive, indices) = primitive(&object)?;
-    let points = integer32(object.require("points", "the id of points")?, 0, u32::MAX)?;
+    let buffer = object.require("points", "the id of points")?;
+    let points = integer32(buffer, 0, u32::MAX)?;
     let first = object.get("first").map_or(Ok(0), |v| integer(v, 0, u64::MAX))?;
     let indices = indices.as_ref();
-    let used = Used::by(primitive.points(), indices.map(|i| i.points.as_flattened()));
-    check_points(&object, primitive, &used, points, first, state)?;
+    check::enough_points(primitive, indices, (points, first), state)
+        .map_err(|l| lack(buffer, l))?;
     let attributes = attributes(&object, primitive, indices, state)?;
     let (models, models_sent) = models(&object)?;
     let front = object.get("front").map(|v| choice(v, &[("normal", false), ("reversed", true)]));
@@ -129,60 +128,12 @@ fn primitive(object: &Object<'_>) -> Found<(Primitive, Option<Indices>)> {
     ))
 }
 
-/// Entries of a buffer that a draw uses.
-enum Used {
-    /// So many from the first one on.
-    Count(u64),
-    /// Up to this index, which an indexed mesh names.
-    UpTo(u32),
-}
-
-impl Used {
-    /// By the primitive's own count, else by the greatest index.
-    fn by(count: Option<u64>, indices: Option<&[u32]>) -> Self {
-        match (count, indices.and_then(|list| list.iter().max())) {
-            (Some(count), _) => Self::Count(count),
-            (None, most) => Self::UpTo(most.copied().unwrap_or(0)),
-        }
+/// A lack, at the value that names the id.
+fn lack(value: Value<'_>, lack: Lack) -> Fault {
+    match lack {
+        Lack::Unknown(expected) => value.expected(expected),
+        Lack::Few(reason) => value.refuse(reason),
     }
-
-    fn len(&self) -> u64 {
-        match *self {
-            Self::Count(count) => count,
-            Self::UpTo(most) => u64::from(most) + 1,
-        }
-    }
-
-    /// Why so many, for a message.
-    fn reason(&self, patches: u64) -> String {
-        match self {
-            Self::Count(_) => format!("for {patches} patches"),
-            Self::UpTo(most) => format!("for the index {most}"),
-        }
-    }
-}
-
-fn check_points(
-    object: &Object<'_>,
-    primitive: Primitive,
-    used: &Used,
-    id: u32,
-    first: u64,
-    state: &State,
-) -> Found<()> {
-    let value = object.require("points", "the id of points")?;
-    let Some(&held) = state.points.get(&id) else {
-        return Err(value.expected(format_args!("the id of points ({})", ids(&state.points))));
-    };
-    let needed = used.len();
-    if first.checked_add(needed).is_some_and(|end| end <= held) {
-        return Ok(());
-    }
-    let from = if first == 0 { String::new() } else { format!(" from point {first} on") };
-    let reason = used.reason(primitive.patches());
-    Err(value.refuse(format!(
-        "found {held} points under id {id}, expected at least {needed}{from} {reason}"
-    )))
 }
 
 /// The id of the draw's attributes, of which it has enough.
@@ -197,27 +148,12 @@ fn attributes(
         return Ok(None);
     };
     let id = integer32(value, 0, u32::MAX)?;
-    let Some(&held) = state.corners.get(&id) else {
-        let known = ids(&state.corners);
-        return Err(value.expected(format_args!("the id of attributes ({known})")));
-    };
-    let patches = primitive.patches();
+    check::known_corners(id, state).map_err(|l| lack(value, l))?;
     if let Some(indices) = indices {
         let list = object.require("attribute_indices", "four corners a patch")?;
-        let found = indices.corners.len() as u64;
-        if found != patches {
-            let message = format!("found corners of {found} patches, expected those of {patches}");
-            return Err(list.refuse(message));
-        }
+        check::enough_corner_rows(indices).map_err(|reason| list.refuse(reason))?;
     }
-    let used = Used::by(primitive.corners(), indices.map(|i| i.corners.as_flattened()));
-    let needed = used.len();
-    if needed > held {
-        let reason = used.reason(patches);
-        return Err(value.refuse(format!(
-            "found {held} corners under id {id}, expected at least {needed} {reason}"
-        )));
-    }
+    check::enough_corners(primitive, indices, id, state).map_err(|l| lack(value, l))?;
     Ok(Some(id))
 }
 

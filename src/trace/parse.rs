@@ -4,6 +4,7 @@
 //! Numbers that a unit compares with others are quantised here, once: pixels to UQ16.16, levels to
 //! UQ8.16, both to nearest-even.
 
+use super::check::{RANGE_LOG2_MAX, VIEWPORT_MAX};
 use super::command::{Attributes, Command, Frame, Header, Points, Range, Tessellation};
 use super::field::{Object, choice, flag, integer, integer32, invertible, real32, real64, unknown};
 use super::json::{Found, Value};
@@ -16,10 +17,6 @@ use std::sync::Arc;
 
 /// The version of the format.
 pub(crate) const VERSION: u64 = 1;
-/// The longest side of a viewport, in pixels.
-const VIEWPORT_MAX: u32 = 16384;
-/// Powers of two that a range may be: 2^-64 to 2^64.
-const RANGE_LOG2_MAX: i32 = 64;
 
 const HEADER: &[&str] = &["tessim", "title", "source", "licence"];
 const COMMANDS: &[&str] = &["frame", "points", "attributes", "tessellation", "draw", "end"];
@@ -91,8 +88,9 @@ fn frame(value: Value<'_>, state: &mut State) -> Found<Command> {
     let depths = [("zero_to_one", Depth::ZeroToOne), ("minus_one_to_one", Depth::MinusOneToOne)];
     let depth = object.get("depth").map(|v| choice(v, &depths)).transpose()?.unwrap_or_default();
     let range = object.get("range").map(range).transpose()?.unwrap_or_default();
-    state.in_frame = true;
-    Ok(Command::Frame(Frame { viewport, view, projection, depth, range }))
+    let command = Command::Frame(Frame { viewport, view, projection, depth, range });
+    state.define(&command);
+    Ok(command)
 }
 
 fn viewport(value: Value<'_>) -> Found<[u32; 2]> {

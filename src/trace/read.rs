@@ -13,20 +13,16 @@ use super::parse;
 use super::points::DataFile;
 use super::state::State;
 use crate::error::{Error, Place, Result};
-use std::fs::File;
-use std::io::{self, BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::io::BufRead;
+use std::path::PathBuf;
 
-/// Bytes asked of a file at a time.
-const READ_BYTES: usize = 1 << 18;
-
-/// A command and the line where it stands, from 1.
+/// A command and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located {
     /// The command.
     pub command: Command,
-    /// Its line.
-    pub line: u64,
+    /// Its line, as a whole, or the byte where its block begins.
+    pub place: Place,
 }
 
 /// An iterator over the commands of a text trace.
@@ -42,28 +38,6 @@ enum Phase {
     Header,
     Commands,
     Over,
-}
-
-impl Reader<Box<dyn BufRead + Send>> {
-    /// Opens the trace at `path`, or standard input for `-`. Data files are looked for in the
-    /// trace's folder; for standard input, in the current one.
-    ///
-    /// # Errors
-    /// A file that cannot be opened.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self> {
-        let path = path.as_ref();
-        if path == Path::new("-") {
-            let input = BufReader::with_capacity(READ_BYTES, io::stdin());
-            return Ok(Self::new(Box::new(input), "-", "."));
-        }
-        let input = File::open(path).map_err(|e| Error::system(path, e))?;
-        let folder = match path.parent() {
-            Some(parent) if parent != Path::new("") => parent,
-            _ => Path::new("."),
-        };
-        let input = BufReader::with_capacity(READ_BYTES, input);
-        Ok(Self::new(Box::new(input), path.display().to_string(), folder))
-    }
 }
 
 impl<R: BufRead> Reader<R> {
@@ -99,14 +73,14 @@ impl<R: BufRead> Reader<R> {
             Line::TooLong => Err(self.too_long()),
             Line::Read => {
                 let command = self.parse()?;
-                let line = self.lines.number();
+                let place = Place::Line { line: self.lines.number(), column: 0 };
                 if matches!(command, Command::End) {
                     self.finish()?;
                     self.phase = Phase::Over;
                 } else {
                     self.phase = Phase::Commands;
                 }
-                Ok(Some(Located { command, line }))
+                Ok(Some(Located { command, place }))
             }
         }
     }
@@ -237,7 +211,8 @@ mod tests {
         );
         let mut reader = Reader::new(text.as_bytes(), "t.jsonl", ".");
         let all: Vec<Located> = reader.by_ref().collect::<Result<_>>().unwrap();
-        assert_eq!(all.iter().map(|c| c.line).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6]);
+        let places = (1..=6).map(|line| Place::Line { line, column: 0 });
+        assert!(all.iter().map(|c| c.place.clone()).eq(places));
         let Command::Points(points) = &all[2].command else { panic!("{:?}", all[2]) };
         let PointSource::Xyz(rows) = &*points.source else { panic!("{points:?}") };
         assert_eq!((points.id, rows.len(), rows[16]), (7, 17, [16.0, 0.5, -1e-3]));

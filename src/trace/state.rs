@@ -32,9 +32,10 @@ impl State {
         }
     }
 
-    /// Takes in a command that defines points or attributes.
+    /// Takes in a command that begins a frame or defines points or attributes.
     pub(crate) fn define(&mut self, command: &Command) {
         match command {
+            Command::Frame(_) => self.in_frame = true,
             Command::Points(points) => {
                 self.points.insert(points.id, points.source.len());
             }

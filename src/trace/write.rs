@@ -1,11 +1,12 @@
 //! Write: commands in, the text of a trace out, which reads back as the same commands.
 //!
-//! Numbers are the shortest decimals that read back as the same bits. The writer checks nothing:
-//! the reader does.
+//! Numbers are the shortest decimals that read back as the same bits. The writer checks nothing but
+//! the length of a line: the reader does.
 
 use super::attributes::Attribute;
 use super::command::{Attributes, Command, Draw, FanEncoding, Frame, Header};
 use super::command::{Points, Primitive, Range, Tessellation};
+use super::lines::LINE_BYTES_MAX;
 use super::points::PointSource;
 use rtl_model::level::Criterion;
 use rtl_model::patch::Depth;
@@ -27,7 +28,8 @@ impl<W: Write> Writer<W> {
     /// Writes a command, which gets a line of its own.
     ///
     /// # Errors
-    /// Those of the output.
+    /// Those of the output. [`io::ErrorKind::InvalidInput`] for a line that is longer than readers
+    /// take.
     pub fn write(&mut self, command: &Command) -> io::Result<()> {
         self.line.clear();
         let line = &mut self.line;
@@ -39,6 +41,15 @@ impl<W: Write> Writer<W> {
             Command::Tessellation(c) => tessellation(line, c),
             Command::Draw(c) => draw(line, c),
             Command::End => line.push_str(r#"{"end":{}}"#),
+        }
+        if line.len() > LINE_BYTES_MAX {
+            let message = format!(
+                "a line of {} bytes is more than the {} MiB of text that a line may have; put \
+                 large points into a file of their own, or use the binary form",
+                line.len(),
+                LINE_BYTES_MAX >> 20
+            );
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
         line.push('\n');
         self.output.write_all(line.as_bytes())

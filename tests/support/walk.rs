@@ -12,7 +12,7 @@ use tessim::config::Config;
 use tessim::golden::{Real, control_point};
 use tessim::shader::control_point as shader;
 use tessim::trace::command::{Command, Draw, Points, Tessellation};
-use tessim::trace::read::Reader;
+use tessim::trace::open::Trace;
 use tessim::unit::FrameState;
 
 /// The traces in `traces/`.
@@ -42,7 +42,7 @@ pub(crate) fn walk(name: &str, config: &Config, mut each: impl FnMut(&Draw, &Dra
     let mut points: HashMap<u32, Points> = HashMap::new();
     let mut tessellation = Tessellation::default();
     let mut camera = None;
-    for located in Reader::open(path).expect("a shipped trace") {
+    for located in Trace::open(path).expect("a shipped trace") {
         match located.expect("a whole trace").command {
             Command::Points(p) => drop(points.insert(p.id, p)),
             Command::Tessellation(t) => tessellation = t,
