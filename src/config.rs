@@ -438,8 +438,8 @@ impl Config {
     }
 
     /// The same configuration with what it leaves to be derived from itself written out:
-    /// `evaluate.guard`, what the unit does whatever is set, and `level.criterion` where only its number was given. A bus whose numbers
-    /// were changed is named no more.
+    /// `evaluate.guard`, what the unit does whatever is set, and `level.criterion` where only its
+    /// number was given. A bus whose numbers were changed is named no more.
     #[must_use]
     pub fn effective(&self) -> Self {
         let mut effective = self.clone();
