@@ -52,7 +52,9 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let Study::Backface(args) = &args.study;
     let name = "backface.csv";
     let folder = args.out.as_deref();
-    let folder = folder.map(|out| ResultFolder::of_study(out, name, &CSV_HEADER)).transpose()?;
+    let folder = folder
+        .map(|out| ResultFolder::of_study(out, &["backface.csv"], &CSV_HEADER))
+        .transpose()?;
     let options = Options { views: args.views as usize, random: args.random as usize };
     let rows = backface::run(options)?;
     if let Some(folder) = folder {

@@ -5,4 +5,5 @@
 //! any number of threads gives the same bytes.
 
 pub mod backface;
+pub mod compare;
 mod random;

@@ -6,6 +6,7 @@ pub mod import;
 pub mod indices;
 pub mod points;
 pub mod read;
+pub mod replay;
 pub mod scene;
 pub mod write;
 
