@@ -1,7 +1,7 @@
 //! The rows as a picture: bytes a triangle over the level, both logarithmic, a line a form.
 //!
 //! Colours are those of Okabe and Ito, which people with any kind of colour vision tell apart;
-//! lines of triangles are thick and have squares. Text stays text.
+//! lines of triangles are thicker and marked by triangles. Text stays text.
 
 use super::{CORNERS, Form, Row};
 use crate::error::{Error, Result};
@@ -68,7 +68,7 @@ fn draw(text: &mut String, rows: &[Row]) -> Result<(), Box<dyn std::error::Error
         .draw()?;
     for form in Form::ALL {
         let points = rows.iter().filter(|row| row.form == form).map(|row| at(row));
-        let style = color(form).stroke_width(if form.is_triangles() { 3 } else { 1 });
+        let style = color(form).stroke_width(if form.is_triangles() { 3 } else { 2 });
         let series = LineSeries::new(points.clone(), style);
         let legend = move |(x, y)| PathElement::new(vec![(x, y), (x + 24, y)], style);
         chart.draw_series(series)?.label(form.name()).legend(legend);

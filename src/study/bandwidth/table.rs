@@ -194,12 +194,15 @@ fn notes(text: &mut String, rows: &[Row]) {
     );
     for note in [
         "immediate data: all of it crosses the link anew in each frame, and no cache saves any",
-        "not in the tables: command headers, matrices and framing, which bandwidth.csv has beside them",
-        "levels: 1 and the even ones, which are what unit hybrid reaches; sfarti has powers of two only",
-        "  and sends the same bytes, moreton 16 more a patch: the levels that its driver chose",
-        "indexed triangles: what unit triangles sends; each patch's vertices once, shared with no other",
+        "not here: command headers, matrices and framing, which bandwidth.csv has beside the rest",
+        "levels: 1 and the even ones, which unit hybrid reaches; sfarti has powers of two only and",
+        "  sends the same bytes, moreton 16 more a patch: the levels that its driver chose",
+        "fan: as many patches as the mesh has; the triangles beside it are those of the mesh",
+        "indexed triangles: what unit triangles sends, each patch's vertices once; its indices have",
+        "  4 bytes where the draw has more than 65536 vertices",
         "triangle strips: both rows of vertices of each strip of each patch; closed form only",
-        "vertices once: each vertex of the whole mesh, and no byte for its triangles: less than can be",
+        "vertices once: each vertex of the whole mesh, and no byte that says which triangles they",
+        "  make: a lower bound; closed form only",
     ] {
         line(text, note);
     }
