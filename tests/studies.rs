@@ -6,6 +6,7 @@ use assert_cmd::Command;
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use tessim::config::Unit;
 
 fn tessim() -> Command {
     Command::cargo_bin("tessim").expect("the command is built for its tests")
@@ -109,28 +110,29 @@ fn a_comparison_reproduces_itself_at_any_number_of_threads_and_from_a_pipe() {
     let [a, b, c] = ["a", "b", "c"].map(|name| folder.path().join(name));
     let teapot = trace("teapot.jsonl");
     let coarse = ["--set", "level.pixels=8", "--set", "position.width=24"];
+    // The first always subdivides: the others must not inherit that from its configuration.
+    let units = ["--units", "sfarti,hybrid,triangles,moreton"];
     let mut one = tessim();
-    one.arg("compare").arg(&teapot).args(coarse).args(["--threads", "1", "--out"]).arg(&a);
-    let table = printed(&mut one);
-    // What one unit's configuration leaves open, the others do not inherit from it.
+    one.arg("compare").arg(&teapot).args(units).args(coarse).args(["--threads", "1", "--out"]);
+    let table = printed(one.arg(&a));
     let mut two = tessim();
-    two.arg("compare").arg(&teapot).args(["--threads", "3", "--config"]).arg(a.join("config.toml"));
-    assert_eq!(printed(two.arg("--out").arg(&b)), table);
+    two.arg("compare").arg(&teapot).args(units).args(["--threads", "3", "--config"]);
+    assert_eq!(printed(two.arg(a.join("config.toml")).arg("--out").arg(&b)), table);
     let mut piped = tessim();
-    piped.args(["compare", "-"]).args(coarse).arg("--out").arg(&c);
+    piped.args(["compare", "-"]).args(units).args(coarse).arg("--out").arg(&c);
     assert_eq!(printed(piped.write_stdin(fs::read(&teapot).unwrap())), table);
     for name in ["compare.csv", "config.toml", "summary.json"] {
         let read = |out: &Path| fs::read(out.join(name)).unwrap();
         assert!(read(&a) == read(&b) && read(&a) == read(&c), "{name}");
     }
-    for unit in ["hybrid", "triangles", "sfarti", "moreton"] {
-        assert!(table.lines().nth(2).unwrap().contains(unit), "all of them: {table}");
-    }
     let mut untimed = tessim();
-    untimed.arg("compare").arg(&teapot).args(coarse).args(["--engine", "none"]);
-    let untimed = printed(untimed.args(["--units", "hybrid,sfarti"]));
-    assert_eq!(cells(&untimed, "elapsed cycles"), [None; 3]);
-    assert_eq!(cells(&untimed, "total")[..1], cells(&table, "total")[..1]);
+    let untimed = untimed.arg("compare").arg(&teapot).args(coarse).args(["--engine", "none"]);
+    let untimed = printed(untimed);
+    for unit in Unit::ALL {
+        assert!(untimed.lines().nth(2).unwrap().contains(unit.name()), "all of them: {untimed}");
+    }
+    assert_eq!(cells(&untimed, "elapsed cycles"), vec![None; 2 * Unit::ALL.len() - 1]);
+    assert_eq!(cells(&untimed, "total")[0], cells(&table, "total")[1]);
     let mut quiet = tessim();
     quiet.args(["-q", "compare"]).arg(&teapot).args(coarse);
     assert_eq!(printed(&mut quiet), "");
