@@ -14,6 +14,13 @@ pub(crate) struct Layered {
     /// The unit that runs; over all layers [default: hybrid]
     #[arg(long, value_name = "U", value_parser = units())]
     unit: Option<String>,
+    #[command(flatten)]
+    laid: Laid,
+}
+
+/// The flags that lay one layer over another, whatever the unit.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Laid {
     /// The machine whose numbers are assumed [default: modern]
     #[arg(long, value_name = "P", value_parser = presets(), hide_default_value = true)]
     preset: Option<Preset>,
@@ -38,15 +45,23 @@ fn presets() -> impl TypedValueParser<Value = Preset> {
 impl Layered {
     /// The effective configuration.
     pub(crate) fn configuration(&self) -> Result<Config> {
+        let mut layers = self.laid.layers()?;
+        if let Some(unit) = &self.unit {
+            layers.set(&[format!("unit={unit}")])?;
+        }
+        layers.finish()
+    }
+}
+
+impl Laid {
+    /// What was laid.
+    pub(crate) fn layers(&self) -> Result<Layers> {
         let mut layers = Layers::new(self.preset.unwrap_or_default());
         if let Some(path) = &self.config {
             layers.file(&path.display().to_string(), &text(path)?)?;
         }
         layers.set(&self.settings)?;
-        if let Some(unit) = &self.unit {
-            layers.set(&[format!("unit={unit}")])?;
-        }
-        layers.finish()
+        Ok(layers)
     }
 }
 

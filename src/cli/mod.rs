@@ -4,6 +4,7 @@
 //! standard error whatever `-q` says, and begin with the place where that is known. What a command
 //! prints goes to standard output; a reader that leaves early ends the command quietly.
 
+mod compare;
 mod config;
 mod convert;
 mod counters;
@@ -39,6 +40,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Compare(compare::Args),
     Info(info::Args),
     Config(config::Args),
     Counters(counters::Args),
@@ -73,6 +75,7 @@ impl Cli {
     fn run(&self) -> Result<()> {
         match &self.command {
             Command::Run(args) => run::run(args, self.quiet),
+            Command::Compare(args) => compare::run(args, self.quiet),
             Command::Info(args) => info::run(args),
             Command::Config(args) => config::run(args),
             Command::Counters(args) => counters::run(args),

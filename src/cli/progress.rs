@@ -9,13 +9,15 @@ use tessim::trace::command::Command;
 /// A line that says how far a run is. Gone when it is dropped.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    what: String,
     frames: u64,
     draws: u64,
     patches: u64,
 }
 
 impl Progress {
-    pub(crate) fn new(quiet: bool) -> Self {
+    /// Of something that a prefix names, or of all there is.
+    pub(crate) fn new(quiet: bool, what: &str) -> Self {
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(None, target);
@@ -24,7 +26,7 @@ impl Progress {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(100));
         }
-        Self { bar, frames: 0, draws: 0, patches: 0 }
+        Self { bar, what: what.to_owned(), frames: 0, draws: 0, patches: 0 }
     }
 
     /// Takes note of a command that has been read.
@@ -38,8 +40,9 @@ impl Progress {
             _ => return,
         }
         if !self.bar.is_hidden() {
-            let Self { frames, draws, patches, .. } = self;
-            self.bar.set_message(format!("{frames} frames, {draws} draws, {patches} patches"));
+            let Self { what, frames, draws, patches, .. } = self;
+            self.bar
+                .set_message(format!("{what}{frames} frames, {draws} draws, {patches} patches"));
         }
     }
 }

@@ -54,7 +54,7 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
 }
 
-fn engines() -> impl TypedValueParser<Value = Engine> {
+pub(super) fn engines() -> impl TypedValueParser<Value = Engine> {
     PossibleValuesParser::new(Engine::ALL.map(Engine::name))
         .map(|name| Engine::named(&name).expect("only names of engines are possible values"))
 }
@@ -132,7 +132,7 @@ impl Args {
             MeshFile::create(form.into(), &folder.path(), frame, &header.title, config)
         });
         let mut mesh = mesh.take().transpose()?;
-        let mut progress = Progress::new(quiet);
+        let mut progress = Progress::new(quiet, "");
         let rest = reader.by_ref();
         let commands = iter::once(first).flatten().map(Ok).chain(rest).map(|located| {
             let command = located?.command;
@@ -155,14 +155,14 @@ impl Args {
     }
 }
 
-fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool> {
+pub(super) fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool> {
     // 0 stands for one thread a core.
     let threads = threads.map_or(0, NonZeroUsize::get);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| Error::system("threads", std::io::Error::other(error)))
 }
 
-fn provenance(header: Header, reader: &Trace) -> Result<Provenance> {
+pub(super) fn provenance(header: Header, reader: &Trace) -> Result<Provenance> {
     let Header { title, source, licence } = header;
     let files = reader
         .data_files()

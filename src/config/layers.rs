@@ -5,7 +5,7 @@
 //! keys demand of each other is checked at the end, when the last layer has spoken.
 
 use super::preset::Preset;
-use super::{Config, keys, link};
+use super::{Config, Unit, keys, link};
 use crate::error::{Error, Place, Result};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -95,11 +95,27 @@ impl Layers {
     /// # Errors
     /// A key out of its range, or keys that contradict each other.
     pub fn finish(self) -> Result<Config> {
+        self.check()?;
+        Ok(self.config.effective())
+    }
+
+    /// The configuration of another unit under the same layers. What follows from the unit where
+    /// nobody set it is left open, so that the text of one unit's serves for all of them.
+    ///
+    /// # Errors
+    /// As [`Self::finish`].
+    pub fn for_unit(&self, unit: Unit) -> Result<Config> {
+        let mut layers = self.clone();
+        layers.config.unit = unit;
+        layers.check()?;
+        Ok(layers.config)
+    }
+
+    fn check(&self) -> Result<()> {
         self.config.problem().map_err(|problem| match self.origins.get(problem.key) {
             Some(origin) => origin.error(format!("{}: {}", problem.key, problem.message)),
             None => Error::from(problem),
-        })?;
-        Ok(self.config.effective())
+        })
     }
 
     /// One layer, its values applied one by one.

@@ -21,8 +21,8 @@ const SOMETIMES: [&str; 5] = ["occupancy.csv", "mesh.ply", "mesh.obj", "mesh.svg
 enum Kind {
     /// The files of a run.
     Run,
-    /// The one file of a study, with its first line.
-    Study { name: &'static str, header: &'static [&'static str] },
+    /// The files of a study, the first of them a CSV with this first line.
+    Study { names: &'static [&'static str], header: &'static [&'static str] },
 }
 
 /// A result folder under construction.
@@ -44,17 +44,21 @@ impl ResultFolder {
         Self::begin(target, Kind::Run)
     }
 
-    /// Begins the folder of a study that will be at `target`, with one file in it: a CSV of that
-    /// name and those columns. It replaces only its like.
+    /// Begins the folder of a study that will be at `target`, with files of these names in it, the
+    /// first of them a CSV with those columns. It replaces only its like.
     ///
     /// # Errors
     /// As [`Self::create`].
+    ///
+    /// # Panics
+    /// When there is no first name.
     pub fn of_study(
         target: &Path,
-        name: &'static str,
+        names: &'static [&'static str],
         header: &'static [&'static str],
     ) -> Result<Self> {
-        Self::begin(target, Kind::Study { name, header })
+        assert!(!names.is_empty(), "a study writes its CSV at least");
+        Self::begin(target, Kind::Study { names, header })
     }
 
     fn begin(target: &Path, kind: Kind) -> Result<Self> {
@@ -124,7 +128,7 @@ fn replaceable(target: &Path, kind: Kind) -> Result<()> {
     let entries = entries.map_err(|error| Error::system(target, error))?;
     let (always, sometimes): (&[&str], &[&str]) = match &kind {
         Kind::Run => (&ALWAYS, &SOMETIMES),
-        Kind::Study { name, .. } => (std::slice::from_ref(name), &[]),
+        Kind::Study { names, .. } => (names, &[]),
     };
     let ours = |name: &str| always.contains(&name) || sometimes.contains(&name);
     for name in always {
@@ -143,7 +147,8 @@ fn replaceable(target: &Path, kind: Kind) -> Result<()> {
             let mark = "summary.json";
             (mark, super::summary::is_summary(&target.join(mark)))
         }
-        Kind::Study { name, header } => {
+        Kind::Study { names, header } => {
+            let name = names[0];
             let text = fs::read_to_string(target.join(name)).unwrap_or_default();
             (name, text.lines().next() == Some(&header.join(",")))
         }
@@ -191,22 +196,34 @@ mod tests {
     fn a_study_replaces_the_same_study_and_neither_a_run_nor_another() {
         let place = tempfile::tempdir().unwrap();
         let target = place.path().join("out");
-        let write_study = |name, header: &'static [&'static str], rows: &str| {
-            let folder = ResultFolder::of_study(&target, name, header)?;
-            folder.write(name, format!("{}\n{rows}", header.join(",")).as_bytes())?;
+        type Names = &'static [&'static str];
+        let write_study = |names: Names, header: Names, rows: &str| {
+            let folder = ResultFolder::of_study(&target, names, header)?;
+            names[1..].iter().try_for_each(|name| folder.write(name, b""))?;
+            folder.write(names[0], format!("{}\n{rows}", header.join(",")).as_bytes())?;
             folder.commit()
         };
-        write_study("a.csv", &["x", "y"], "1,2\n").unwrap();
-        write_study("a.csv", &["x", "y"], "3,4\n").unwrap();
+        write_study(&["a.csv"], &["x", "y"], "1,2\n").unwrap();
+        write_study(&["a.csv"], &["x", "y"], "3,4\n").unwrap();
         assert_eq!(fs::read_to_string(target.join("a.csv")).unwrap(), "x,y\n3,4\n");
-        assert!(write_study("b.csv", &["x", "y"], "").is_err());
-        assert!(write_study("a.csv", &["x", "z"], "").unwrap_err().to_string().contains("a.csv"));
+        assert!(write_study(&["b.csv"], &["x", "y"], "").is_err());
+        assert!(
+            write_study(&["a.csv"], &["x", "z"], "").unwrap_err().to_string().contains("a.csv")
+        );
+        let both: Names = &["a.csv", "a.svg"];
+        assert!(write_study(both, &["x", "y"], "").unwrap_err().to_string().contains("a.svg"));
         assert!(write_result(&target, b"").is_err());
         fs::write(target.join("notes.txt"), "mine").unwrap();
-        assert!(write_study("a.csv", &["x", "y"], "").unwrap_err().to_string().contains("notes"));
+        assert!(
+            write_study(&["a.csv"], &["x", "y"], "").unwrap_err().to_string().contains("notes")
+        );
+        fs::remove_dir_all(&target).unwrap();
+        write_study(both, &["x", "y"], "1,2\n").unwrap();
+        write_study(both, &["x", "y"], "3,4\n").unwrap();
+        assert!(write_study(&["a.csv"], &["x", "y"], "").is_err());
         fs::remove_dir_all(&target).unwrap();
         write_result(&target, b"").unwrap();
-        assert!(write_study("a.csv", &["x", "y"], "").is_err());
+        assert!(write_study(&["a.csv"], &["x", "y"], "").is_err());
         assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left behind");
     }
 

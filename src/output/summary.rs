@@ -50,6 +50,30 @@ pub fn text(report: &Report, provenance: &Provenance) -> String {
     text
 }
 
+/// The text of the `summary.json` of runs of one trace under the same layers, one a unit.
+#[must_use]
+pub fn comparison(reports: &[Report], provenance: &Provenance) -> String {
+    let unit = |report: &Report| {
+        let whole = report.whole();
+        json!({
+            "unit": report.config.unit.name(),
+            "totals": totals_by_name(report, &whole),
+            "rates": rates(report, &whole),
+            "shares": shares(report, &whole),
+        })
+    };
+    let value = json!({
+        "tessim": env!("CARGO_PKG_VERSION"),
+        "trace": provenance,
+        "engine": reports.first().map(|report| report.config.engine),
+        "frames": reports.first().map_or(0, |report| report.frames.len()),
+        "units": reports.iter().map(unit).collect::<Vec<_>>(),
+    });
+    let mut text = serde_json::to_string_pretty(&value).expect("names and numbers are JSON");
+    text.push('\n');
+    text
+}
+
 /// Whether the file at `path` is a summary that some version of `tessim` wrote.
 #[must_use]
 pub fn is_summary(path: &Path) -> bool {

@@ -3,6 +3,8 @@
 
 mod time;
 
+pub use time::{Bound, bound};
+
 use super::summary::ratio;
 use crate::report::{Frame, Report};
 use rtl_model::counter::{Block, Counter, Counters, DECLARATIONS};
@@ -129,7 +131,8 @@ fn value_width(whole: &Frame) -> usize {
 }
 
 /// Digits in groups of three.
-fn grouped(value: u64) -> String {
+#[must_use]
+pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {

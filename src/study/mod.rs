@@ -5,4 +5,6 @@
 //! any number of threads gives the same bytes.
 
 pub mod backface;
+pub mod bandwidth;
+pub mod compare;
 mod random;

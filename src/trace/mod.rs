@@ -8,6 +8,7 @@ pub mod indices;
 pub mod open;
 pub mod points;
 pub mod read;
+pub mod replay;
 pub mod scene;
 pub mod write;
 

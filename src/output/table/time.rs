@@ -4,8 +4,8 @@
 use super::{BOLD, DIM, PLAIN, Table, ratio};
 use crate::config::Engine;
 use crate::report::{Frame, Report};
-use rtl_model::counter::Counter;
 use rtl_model::counter::standard::{Quantity, Stage, Work, rows};
+use rtl_model::counter::{Block, Counter};
 use rtl_model::time::{FrameTimes, StageTimes};
 
 /// Below this share of its cycles no block is called busy enough to bind a run.
@@ -91,6 +91,24 @@ pub(super) fn verdict(table: &mut Table, report: &Report, whole: &Frame) {
     for consequence in neighbours.into_iter().flatten().chain(next) {
         table.line(&format!("    {consequence}"));
     }
+}
+
+/// The block that a run uses most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// The block.
+    pub block: Block,
+    /// Its utilisation, 0..=1.
+    pub used: f64,
+    /// Whether that is enough to bind the run; latency does where it is not.
+    pub binds: bool,
+}
+
+/// What binds a run; `None` without an engine, and where nothing ran.
+#[must_use]
+pub fn bound(report: &Report, whole: &Frame) -> Option<Bound> {
+    let (k, used) = busiest(whole.times.as_ref()?)?;
+    Some(Bound { block: report.chain[k].block, used, binds: used >= BINDS })
 }
 
 /// The block with the highest utilisation, the first of equals, and that utilisation.

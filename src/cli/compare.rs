@@ -1,0 +1,84 @@
+//! `compare`: a trace through several units, their numbers side by side.
+
+use super::config::Laid;
+use super::print;
+use super::progress::Progress;
+use super::run::{engines, pool, provenance};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use tessim::config::{Config, Engine};
+use tessim::error::Result;
+use tessim::output::folder::ResultFolder;
+use tessim::output::summary;
+use tessim::study::compare::{self, CSV_HEADER, Comparison};
+use tessim::trace::replay::Replay;
+
+/// Run a trace through several units and set their numbers side by side
+///
+/// Prints a table with ratios to the first unit; what a unit does not have is -. With --out writes
+/// compare.csv (every counter over the whole run beside the first unit's), config.toml (the first
+/// unit's, which serves for the others as well) and summary.json.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  tessim compare traces/teapot.jsonl\n  \
+                        tessim compare traces/teapot.jsonl --units triangles,sfarti,hybrid \
+                        --preset gf3-2001 --out result")]
+pub(crate) struct Args {
+    /// The trace; - for standard input, which is read once
+    trace: PathBuf,
+    /// Names with commas between them, the one that ratios are to first; or all
+    #[arg(long, value_name = "U,U,..", default_value = compare::ALL)]
+    units: String,
+    #[command(flatten)]
+    laid: Laid,
+    /// What lays time over the blocks; over all layers [default: timed]
+    #[arg(long, value_name = "E", value_parser = engines())]
+    engine: Option<Engine>,
+    /// Threads, any number of which give the same bytes [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Write the results into this folder; one that exists is replaced only if compare wrote it
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// What the folder holds.
+const FILES: [&str; 3] = ["compare.csv", "config.toml", "summary.json"];
+
+pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
+    let configs = args.configurations()?;
+    let pool = pool(args.threads)?;
+    let mut trace = Replay::open(&args.trace)?;
+    let folder = args.out.as_deref();
+    let folder = folder.map(|out| ResultFolder::of_study(out, &FILES, &CSV_HEADER)).transpose()?;
+    let mut progress = (configs[0].unit, Progress::new(quiet, ""));
+    let watch = |unit: tessim::config::Unit, command: &_| {
+        if progress.0 != unit {
+            progress = (unit, Progress::new(quiet, &format!("{}: ", unit.name())));
+        }
+        progress.1.command(command);
+    };
+    let compared = pool.install(|| compare::run(&mut trace, &configs, watch))?;
+    drop(progress);
+    let Comparison { header, reports, reader } = compared;
+    let provenance = provenance(header, &reader)?;
+    if let Some(folder) = folder {
+        folder.write("compare.csv", compare::csv(&reports).as_bytes())?;
+        folder.write("config.toml", configs[0].to_commented_toml().as_bytes())?;
+        folder.write("summary.json", summary::comparison(&reports, &provenance).as_bytes())?;
+        folder.commit()?;
+    }
+    if quiet { Ok(()) } else { print::print(&compare::text(&reports, &provenance.title)) }
+}
+
+impl Args {
+    /// One a unit, in order, the same but for the unit.
+    fn configurations(&self) -> Result<Vec<Config>> {
+        let layers = self.laid.layers()?;
+        let units = compare::units(&self.units)?.into_iter();
+        let configs = units.map(|unit| {
+            let config = layers.for_unit(unit)?;
+            Ok(Config { engine: self.engine.unwrap_or(config.engine), ..config })
+        });
+        configs.collect()
+    }
+}

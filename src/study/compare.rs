@@ -1,0 +1,125 @@
+//! Compare: one trace through several units, everything else the same, and their numbers side by
+//! side.
+//!
+//! In come a trace and a configuration a unit; out come their reports, in order, and from them a
+//! table for people, with ratios to the first unit, and a CSV with integers only. The units run one
+//! after another: a run's engine is sequential anyway, and memory stays that of one run.
+
+mod table;
+
+use crate::config::{Config, Unit};
+use crate::error::{Error, Result};
+use crate::report::Report;
+use crate::sink::NoMesh;
+use crate::trace::command::{Command, Header};
+use crate::trace::open::Trace;
+use crate::trace::replay::Replay;
+use crate::unit::simulate;
+use std::io::{self, BufRead};
+
+pub use table::{CSV_HEADER, csv, text};
+
+/// What stands for every unit.
+pub const ALL: &str = "all";
+
+/// The same trace through several units.
+pub struct Comparison {
+    /// What the trace says of itself.
+    pub header: Header,
+    /// A report a unit.
+    pub reports: Vec<Report>,
+    /// A reader that is through with the trace: its hash and its files.
+    pub reader: Trace,
+}
+
+/// The units of a list of names with commas between them, or of [`ALL`].
+///
+/// # Errors
+/// [`Error::Usage`] for a name that no unit has, with the nearest one, and for a unit named twice.
+pub fn units(names: &str) -> Result<Vec<Unit>> {
+    if names == ALL {
+        return Ok(Unit::ALL.to_vec());
+    }
+    let mut units = Vec::new();
+    for name in names.split(',') {
+        let Some(unit) = Unit::ALL.into_iter().find(|unit| unit.name() == name) else {
+            return Err(Error::Usage(unknown(name)));
+        };
+        if units.contains(&unit) {
+            return Err(Error::Usage(format!("--units {names}: found {name} twice")));
+        }
+        units.push(unit);
+    }
+    Ok(units)
+}
+
+fn unknown(name: &str) -> String {
+    let known = Unit::ALL.map(Unit::name);
+    let rated = known.into_iter().chain([ALL]).map(|k| (strsim::jaro_winkler(name, k), k));
+    let nearest = rated.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    let nearest = nearest.map_or(ALL, |(_, known)| known);
+    let name: String = name.chars().take(200).collect();
+    let known = known.join(", ");
+    format!("--units: unknown unit `{name}`; did you mean `{nearest}`? (units: {known}, or {ALL})")
+}
+
+/// Runs the trace once for each of `configs`, at least one, in the current rayon pool. `watch` sees
+/// each command before its unit does.
+///
+/// # Errors
+/// Those of the trace and of [`simulate`]; [`Error::System`] for a trace that has changed between
+/// two units.
+///
+/// # Panics
+/// When there is no configuration.
+pub fn run(
+    trace: &mut Replay,
+    configs: &[Config],
+    mut watch: impl FnMut(Unit, &Command),
+) -> Result<Comparison> {
+    let mut header = Header::default();
+    let mut reports = Vec::with_capacity(configs.len());
+    let mut last: Option<Trace> = None;
+    for config in configs {
+        let mut reader = trace.reader()?;
+        let commands = reader.by_ref().map(|located| {
+            let command = located?.command;
+            watch(config.unit, &command);
+            if let Command::Header(found) = &command {
+                header = found.clone();
+            }
+            Ok(command)
+        });
+        reports.push(simulate(commands, config, &mut NoMesh)?);
+        if last.is_some_and(|before| before.hash() != reader.hash()) {
+            let changed = io::Error::other("it changed while its units were compared");
+            return Err(Error::system(trace.path(), changed));
+        }
+        last = Some(reader);
+    }
+    let reader = last.expect("there is something to compare");
+    Ok(Comparison { header, reports, reader })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_units_are_in_order_and_unknown_ones_are_told_the_nearest() {
+        assert_eq!(units("sfarti,hybrid").unwrap(), [Unit::Sfarti, Unit::Hybrid]);
+        assert_eq!(units("all").unwrap(), Unit::ALL);
+        for (names, says) in [
+            ("hybrid,triangle", "`triangle`; did you mean `triangles`?"),
+            ("sfratis", "did you mean `sfarti`?"),
+            ("al", "did you mean `all`?"),
+            ("", "unknown unit ``"),
+            ("hybrid,", "unknown unit ``"),
+            ("hybrid,sfarti,hybrid", "found hybrid twice"),
+        ] {
+            let error = units(names).unwrap_err();
+            assert_eq!(error.exit_code(), 2);
+            assert!(error.to_string().contains(says), "{error}");
+        }
+    }
+}
