@@ -15,7 +15,7 @@ use crate::trace::command::{Command, Header};
 use crate::trace::open::Trace;
 use crate::trace::replay::Replay;
 use crate::unit::simulate;
-use std::io::{self, BufRead};
+use std::io;
 
 pub use table::{CSV_HEADER, csv, text};
 
