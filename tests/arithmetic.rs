@@ -264,7 +264,7 @@ fn a_unit_costs_what_it_does() {
     // a correction, three sums of squares.
     let adds = 16 * (2 + 2) + splits * (18 + 5 * (3 + 2)) + pieces * (6 + 2 + 1 + 3);
     assert_eq!(ops(&curves, Block::Level).add, adds);
-    assert_eq!(ops(&curves, Block::Level).compare, 16 * 2 + splits * 5 * 2 + pieces * 5);
+    assert_eq!(ops(&curves, Block::Level).compare, 16 * 2 + splits * 5 * 2 + pieces * 4);
     let sums = 3 * (3 * 45 + 2 * 46 + 47);
     let newton = [2 * 32 + 2 * (40 + 32), 3 * 44 + 2 * (40 + 44)];
     let flat = 6 * 41 + 2 * 83 + (42 + 32) + 3 * 83;

@@ -193,10 +193,9 @@ fn laws(c: &Counters, config: &Config) {
     let object = config.unit.in_object_space();
     let or_0 = |counter| if object { 0 } else { get(counter) };
     let kept = get(C::AssemblePatches) - get(C::ClipCulled) - get(C::BackfaceCulled);
-    let host = config.unit.host_tessellates();
     let equal = [
         (get(C::LinkTotal), payload + get(C::LinkOverhead) + get(C::LinkRequests)),
-        (if host { moved } else { get(C::MemoryBursts) * burst }, moved + get(C::MemoryWasted)),
+        (get(C::MemoryBursts) * burst, moved + get(C::MemoryWasted)),
         (get(C::TransformInvocations), or_0(C::PortPoints)),
         (get(C::PortPoints), get(C::AssembleReceived)),
         (get(C::TransformBytesOut), 16 * get(C::TransformInvocations)),
