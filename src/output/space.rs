@@ -28,8 +28,8 @@ pub fn parameter(raw: u32) -> f64 {
     f64::from(raw) / f64::from(ONE)
 }
 
-/// Where in the world the matrix `m`, column-major, takes a homogeneous point, to f32 precision. Where that is nowhere (w = 0),
-/// the origin: a viewer can do nothing with NaN.
+/// Where in the world the matrix `m`, column-major, takes a homogeneous point, to f32 precision.
+/// Where that is nowhere (w = 0), the origin: a viewer can do nothing with NaN.
 #[must_use]
 pub fn world(m: &[f64; 16], point: [f64; 4]) -> [f32; 3] {
     let row = |r: usize| (0..4).map(|c| m[4 * c + r] * point[c]).sum::<f64>();

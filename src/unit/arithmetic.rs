@@ -150,7 +150,7 @@ pub const PIECES: &[Piece] = &[
     Piece {
         block: Block::Place,
         meaning: "a patch's six levels, 24 bits: 8 comparisons to raise the interior's, 15 to find \
-                  those that are equal (not in unit sfarti, whose parameters are wires, or moreton)",
+                  those that are equal (not in unit moreton, or in sfarti: there they are wires)",
         times: |f| {
             if f.config.unit == Unit::Moreton { 0 } else { f.fractional(C::LevelPatches) }
         },

@@ -2,8 +2,8 @@
 //! are divided until they are flat, and where lists come from the bound.
 //!
 //! By the bound the ratio is at most 1 where the hybrid's is. Of eight curves only this is known
-//! without perspective: a piece of a boundary curve, whose inner points are within the tolerance of
-//! its chord, is within it, too. At equal parameters a curve may run ahead of its chord, and between
+//! without perspective: a piece of a boundary curve whose inner points are within the tolerance of
+//! its chord is within it, too. At equal parameters a curve may run ahead of its chord, and between
 //! the curves the surface is nobody's care: a twist has eight straight curves.
 
 use super::random::Random;

@@ -68,8 +68,8 @@ pub(super) const POWERS: Piece = Piece {
 /// What eight curves need for each division.
 pub(super) const SPLIT: Piece = Piece {
     block: Block::Level,
-    meaning: "unit sfarti, a curve divided: for x y w the sums of neighbours, of those and of those \
-              again (6 additions, W + 13 to W + 15 bits), and the 5 new points projected as the 16 \
+    meaning: "unit sfarti, a curve divided: for x y w the sums of neighbours, of those, and again \
+              (6 additions, W + 13 to W + 15 bits), and the 5 new points projected as the 16 \
               of the patch were, 12 bits wider",
     times: |f| if f.divides() { f.get(C::LevelSplits) } else { 0 },
     once: |f| {
