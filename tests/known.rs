@@ -223,7 +223,7 @@ fn laws(c: &Counters, config: &Config) {
         (get(C::MemoryWrittenAttributes), get(C::LinkAttributes)),
         (get(C::MemoryReadControlPoints), get(C::MemoryUncachedControlPoints)),
         (get(C::AssembleWhole), get(C::AssemblePatches)),
-        (get(C::AssembleCorners) + get(C::AssembleCornersReused), 4 * get(C::AssemblePatches)),
+        (get(C::AssembleCorners) + get(C::AssembleCornersReused), 4 * get(C::TracePatches)),
         (get(C::PortSaturated), get(C::PortPoints)),
         (get(C::PortSaturated), get(C::PortOverflows)),
         (get(C::PortOverflows), 4 * get(C::PortSaturated)),

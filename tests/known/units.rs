@@ -101,6 +101,7 @@ fn two_passes_fetch_and_test_twice_and_look_once() {
         config.level.min_level = Some(2.0);
         let own = run_text(&text, &config).expect("a mesh");
         config.level.union = Union::Primitive;
+        config.block.level.interval = 7;
         let both = run_text(&text, &config).expect("a mesh");
         let points = 13 * 16;
         let bursts = if resident { (12 * points as u64).div_ceil(32) } else { 0 };
@@ -133,6 +134,10 @@ fn two_passes_fetch_and_test_twice_and_look_once() {
         };
         assert_eq!(tokens(Block::Level), (120, 120));
         assert_eq!(tokens(Block::Place), (120, 60));
+        // Eight pieces and two of each division are looked at; the second time it passes by.
+        let rows = both.rows(&both.whole());
+        let used = rows.iter().find(|r| r.block == Block::Level && r.name == "cycles.used");
+        assert_eq!(used.map(|row| row.value), Some(60 * ((8 + 2 * 8) * 7 + 1)));
         assert_eq!(own.host_link_bytes, both.host_link_bytes);
         assert_eq!(own.total(C::LinkTotal), both.total(C::LinkTotal), "sent once");
     }
