@@ -92,8 +92,8 @@ fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
 }
 
 fn config(random: &mut Random) -> Config {
-    let mut config = Config::default();
-    config.unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton]);
+    let unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton]);
+    let mut config = Config { unit, ..Config::default() };
     config.level.termination = random.of([Termination::EightCurves, Termination::Bounded]);
     config.position.width = 8 + random.integer(0, 40);
     config.position.rounding = random.of(Rounding::ALL);

@@ -104,7 +104,7 @@ fn two_passes_fetch_and_test_twice_and_look_once() {
         config.block.level.interval = 7;
         let both = run_text(&text, &config).expect("a mesh");
         let points = 13 * 16;
-        let bursts = if resident { (12 * points as u64).div_ceil(32) } else { 0 };
+        let bursts = if resident { (12_u64 * points).div_ceil(32) } else { 0 };
         let read = if resident { 12 * points } else { 0 };
         let known = [
             (C::TracePatches, 60),
