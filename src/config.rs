@@ -207,6 +207,21 @@ pub struct Level {
     pub near: Option<f64>,
     /// When midpoint subdivision ends (unit `sfarti`).
     pub termination: Termination,
+    /// Whose lists are unified (unit `sfarti`).
+    pub union: Union,
+}
+
+/// Which patches use one union of their lists.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Union {
+    /// None: each edge has its own list, which zippers join to the interior. Watertight across
+    /// draws.
+    #[default]
+    Off,
+    /// Those of a strip, fan or mesh that share edges: a list for each column and each row. Takes
+    /// two passes; watertight within a primitive only.
+    Primitive,
 }
 
 /// The criterion's name; its number stands beside it.
@@ -339,6 +354,7 @@ impl Default for Level {
             max_level: None,
             near: None,
             termination: Termination::EightCurves,
+            union: Union::Off,
         }
     }
 }
@@ -431,6 +447,15 @@ impl Config {
         }
     }
 
+    /// Whose lists are unified: as configured in unit `sfarti`; no other has lists of that kind.
+    #[must_use]
+    pub fn union(&self) -> Union {
+        match self.unit {
+            Unit::Sfarti => self.level.union,
+            _ => Union::Off,
+        }
+    }
+
     /// Whether the unit divides by w: not where its vertices are still to be transformed.
     #[must_use]
     pub fn divides(&self) -> bool {
@@ -447,6 +472,7 @@ impl Config {
         effective.evaluate.scheme = self.scheme();
         effective.emit.divide = self.divides();
         effective.level.criterion = self.level.chosen();
+        effective.level.union = self.union();
         effective.link.bus = self.link.bus();
         effective
     }

@@ -12,6 +12,8 @@
 //! interior, and under perspective the bounds are estimates, since a projected cubic is rational:
 //! those ratios are printed, not asserted.
 
+#[path = "accuracy/dyadic.rs"]
+mod dyadic;
 #[allow(dead_code, reason = "tests/agreement draws patches of other kinds")]
 #[path = "support/random.rs"]
 mod random;

@@ -231,3 +231,61 @@ fn tokens_are_those_of_one_patch() {
     assert_eq!((link.tokens_in, link.tokens_out), (4, 25)); // a frame, a draw, vertices, indices
     assert_eq!((shader.tokens_in, shader.tokens_out), (25, 25));
 }
+
+#[test]
+fn a_unit_costs_what_it_does() {
+    let of = |unit, set: fn(&mut Config)| {
+        patch(|c| {
+            c.unit = unit;
+            set(c);
+        })
+    };
+    // Fixed, by midpoints: the hybrid's comparisons, and six levels rounded up.
+    let fixed = of(Unit::Sfarti, |_| {});
+    let level = [6, 6 * 24, 0, 0, 16, 12 * 64 + 4 * 24];
+    assert_eq!(numbers(ops(&fixed, Block::Level)), level);
+    assert_eq!(numbers(ops(&fixed, Block::Place)), [0; 6], "parameters are wires");
+    assert_eq!(numbers(ops(&fixed, Block::Stitch)), [0, 0, 0, 0, 32, 32 * 8]);
+    let points = 12 + 12 + 9; // as under de Casteljau above
+    assert_eq!(ops(&fixed, Block::Evaluate).mul, points * 48);
+    assert_eq!(ops(&fixed, Block::Evaluate).add, points * 25);
+    // Eight straight curves, each divided once for the least level: a piece of each, and two of
+    // each division.
+    let curves = of(Unit::Sfarti, |c| {
+        (c.level.level, c.level.pixels, c.level.min_level) = (None, Some(1.0), Some(2.0));
+    });
+    let (splits, pieces) = (8, 8 + 2 * 8);
+    // A point: two products with the size, Newton's four (32 bits) or four (44), two quotients.
+    let (project, projected) = (16 * (2 + 4 + 4), splits * 5 * (2 + 6 + 4));
+    // Two areas, a quotient of two and its square, three squared lengths.
+    let flat = pieces * (2 * 2 + 2 + 1 + 3 * 2);
+    assert_eq!(ops(&curves, Block::Level).mul, project + projected + flat);
+    // Newton's additions and a correction for each quotient; 18 sums; six differences, two areas,
+    // a correction, three sums of squares.
+    let adds = 16 * (2 + 2) + splits * (18 + 5 * (3 + 2)) + pieces * (6 + 2 + 1 + 3);
+    assert_eq!(ops(&curves, Block::Level).add, adds);
+    assert_eq!(ops(&curves, Block::Level).compare, 16 * 2 + splits * 5 * 2 + pieces * 4);
+    let sums = 3 * (3 * 45 + 2 * 46 + 47);
+    let newton = [2 * 32 + 2 * (40 + 32), 3 * 44 + 2 * (40 + 44)];
+    let flat = 6 * 41 + 2 * 83 + (42 + 32) + 3 * 83;
+    let bits = 16 * newton[0] + splits * (sums + 5 * newton[1]) + pieces * flat;
+    assert_eq!(ops(&curves, Block::Level).add_bits, bits);
+    // By the bound: what the hybrid does, and the rounding up.
+    let by_bound: fn(&mut Config) = |c| {
+        (c.level.level, c.level.pixels) = (None, Some(1.0));
+        c.level.termination = tessim::config::Termination::Bounded;
+    };
+    let (bounded, hybrid) = (of(Unit::Sfarti, by_bound), of(Unit::Hybrid, by_bound));
+    let rounding = Ops::default().adds(6, 24);
+    assert_eq!(ops(&bounded, Block::Level), ops(&hybrid, Block::Level).with(1, rounding));
+    // Levels are the driver's; a vertex program transforms 25 vertices.
+    let moreton = of(Unit::Moreton, |_| {});
+    assert!(moreton.chain.iter().all(|stage| stage.block != Block::Level));
+    let program = [25 * 12, 25 * 12 * 24, 25 * 16, 25 * 16 * 576, 0, 0];
+    assert_eq!(numbers(ops(&moreton, Block::VertexShader)), program);
+    assert_eq!(numbers(ops(&moreton, Block::Emit)), [0; 6], "nothing is divided");
+    let place = ops(&patch(|_| {}), Block::Place);
+    assert_eq!(ops(&moreton, Block::Place).compare, 2 + 6);
+    assert_eq!(ops(&moreton, Block::Place).add, place.add);
+    assert_eq!(ops(&moreton, Block::Evaluate), ops(&patch(|_| {}), Block::Evaluate));
+}

@@ -8,13 +8,16 @@ mod random;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/run.rs"]
 mod run;
+#[path = "known/units.rs"]
+mod units;
 
 use rtl_model::counter::Counter as C;
 use rtl_model::counter::Counters;
 use rtl_model::counter::standard::{Stage, Work};
+use rtl_model::level::Termination;
 use std::io::BufReader;
 use std::path::Path;
-use tessim::config::{BackfaceMethod, Config, Normals, Scheme, TransferMode, Unit};
+use tessim::config::{BackfaceMethod, Config, Normals, Scheme, TransferMode, Union, Unit};
 use tessim::error::Result;
 use tessim::output;
 use tessim::report::Report;
@@ -167,12 +170,18 @@ fn a_mesh_brings_its_points_once_an_instance() {
 
 /// Every law that the declarations state.
 fn laws(c: &Counters, config: &Config) {
+    equal(c, config);
+    at_most(c, config);
+}
+
+fn equal(c: &Counters, config: &Config) {
     let get = |counter| c.get(counter);
     let link = [
         C::LinkCommands,
         C::LinkMatrices,
         C::LinkControlPoints,
         C::LinkAttributes,
+        C::LinkFactors,
         C::LinkVertices,
         C::LinkIndices,
     ];
@@ -185,17 +194,22 @@ fn laws(c: &Counters, config: &Config) {
     let emit = u64::from(config.emit.vertex_bytes) * get(C::EmitVertices)
         + get(C::EmitAttributeBytes)
         + 3 * u64::from(config.emit.index_bytes) * get(C::EmitTriangles);
+    // Before transform the points are as they came, and all patches are kept.
+    let object = config.unit.in_object_space();
+    let or_0 = |counter| if object { 0 } else { get(counter) };
+    let kept = get(C::AssemblePatches) - get(C::ClipCulled) - get(C::BackfaceCulled);
     let equal = [
         (get(C::LinkTotal), payload + get(C::LinkOverhead) + get(C::LinkRequests)),
         (get(C::MemoryBursts) * burst, moved + get(C::MemoryWasted)),
-        (get(C::TransformInvocations), get(C::PortPoints)),
-        (get(C::TransformInvocations), get(C::AssembleReceived)),
+        (get(C::TransformInvocations), or_0(C::PortPoints)),
+        (get(C::PortPoints), get(C::AssembleReceived)),
         (get(C::TransformBytesOut), 16 * get(C::TransformInvocations)),
         (get(C::AssembleReceived) + get(C::AssembleReused), 16 * get(C::AssemblePatches)),
-        (get(C::TracePatches), get(C::AssemblePatches)),
-        (get(C::AssemblePatches), get(C::ClipIn)),
+        (get(C::TracePatches) + get(C::AssembleMeasured), get(C::AssemblePatches)),
+        (get(C::LinkFactors), if object { 16 * get(C::TracePatches) } else { 0 }),
+        (get(C::ClipIn), or_0(C::AssemblePatches)),
         (get(C::ClipIn) - get(C::ClipCulled), get(C::BackfaceIn)),
-        (get(C::BackfaceIn) - get(C::BackfaceCulled), get(C::LevelPatches)),
+        (kept, get(C::LevelPatches) + get(C::PlaceMeasured)),
         (get(C::EvaluateVertices), get(C::EmitVertices)),
         (get(C::StitchTriangles), get(C::EmitTriangles)),
         (get(C::EmitVertices), get(C::VertexShaderInvocations)),
@@ -209,12 +223,16 @@ fn laws(c: &Counters, config: &Config) {
     for (k, (a, b)) in equal.iter().enumerate() {
         assert_eq!(a, b, "law {k} under {config:?}");
     }
+}
+
+fn at_most(c: &Counters, config: &Config) {
+    let get = |counter| c.get(counter);
     let at_most = [
         (get(C::MemoryWrittenControlPoints), get(C::LinkControlPoints)),
         (get(C::MemoryWrittenAttributes), get(C::LinkAttributes)),
         (get(C::MemoryReadControlPoints), get(C::MemoryUncachedControlPoints)),
         (get(C::AssembleWhole), get(C::AssemblePatches)),
-        (get(C::AssembleCorners) + get(C::AssembleCornersReused), 4 * get(C::AssemblePatches)),
+        (get(C::AssembleCorners) + get(C::AssembleCornersReused), 4 * get(C::TracePatches)),
         (get(C::PortSaturated), get(C::PortPoints)),
         (get(C::PortSaturated), get(C::PortOverflows)),
         (get(C::PortOverflows), 4 * get(C::PortSaturated)),
@@ -225,6 +243,9 @@ fn laws(c: &Counters, config: &Config) {
             get(C::BackfaceFacets),
             u64::from(config.backface.method.facets()) * get(C::BackfaceTested),
         ),
+        (get(C::PlaceMeasured), get(C::AssembleMeasured)),
+        (get(C::PlaceMeasured), get(C::LevelPatches)),
+        (get(C::LevelSplits), 8 * 127 * get(C::LevelPatches)),
         (get(C::LevelClamped), 6 * get(C::LevelPatches)),
         (get(C::LevelNear), 4 * get(C::LevelPatches)),
         (get(C::PlaceReciprocals), 6 * get(C::LevelPatches)),
@@ -261,7 +282,9 @@ fn counters_conserve_what_flows_under_every_configuration() {
     let mut random = random::Random::new(6);
     let mut frames = 0;
     for _ in 0..run::scale(60, 1000) {
-        let mut config = Config::default();
+        let mut config = Config { unit: random.of(Unit::ALL), ..Config::default() };
+        config.level.termination = random.of([Termination::EightCurves, Termination::Bounded]);
+        config.level.union = random.of([Union::Off, Union::Primitive]);
         config.position.width = 8 + random.integer(0, 40);
         config.position.clip_range_log2 = random.of([None, Some(0), Some(4)]);
         config.backface.method = random.of([

@@ -14,7 +14,7 @@ use random::Random;
 use rtl_model::counter::{Counter as C, Counters};
 use rtl_model::patch::{Triangle, Vertex};
 use std::sync::Arc;
-use tessim::config::Config;
+use tessim::config::{Config, Unit};
 use tessim::error::Result;
 use tessim::sink::{FrameInfo, PatchMesh, Sink};
 use tessim::trace::attributes::{Attribute, AttributeFormat, AttributeTable};
@@ -188,7 +188,9 @@ fn paper(primitive: Primitive) -> (u64, u64) {
 fn check(random: &mut Random, primitive: Primitive, instances: u64) -> u64 {
     let mut config = Config::default();
     config.assemble.cache_entries = random.of([0, 5, 16, 32, 1000]);
+    config.unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton]);
     let [own, apart, indexed] = same(random, primitive, instances, &config);
+    let transformed = if config.unit.in_object_space() { 0 } else { 1 };
     let (points, corners) = paper(primitive);
     let patches = primitive.patches();
     let cached = indexed.get(C::AssembleReceived);
@@ -201,7 +203,7 @@ fn check(random: &mut Random, primitive: Primitive, instances: u64) -> u64 {
         (own.get(C::AssembleCorners), corners * instances),
         (own.get(C::AssembleReused), (16 * patches - points) * instances),
         (own.get(C::AssembleCornersReused), (4 * patches - corners) * instances),
-        (own.get(C::TransformInvocations), points * instances),
+        (own.get(C::TransformInvocations), points * instances * transformed),
         (own.get(C::MemoryWrittenControlPoints), own.get(C::MemoryReadControlPoints) / instances),
         (own.get(C::MemoryWrittenAttributes), own.get(C::MemoryReadAttributes) / instances),
         (apart.get(C::LinkControlPoints), 12 * 16 * patches),

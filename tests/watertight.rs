@@ -1,6 +1,6 @@
 //! Two patches that share a bit-equal edge have bit-equal boundary vertices along it: forward,
-//! reversed or transposed, in other draws, primitives and frames, at every width, rounding,
-//! overflow and scheme.
+//! reversed or transposed, in other draws, primitives and frames, in every unit that tessellates,
+//! at every width, rounding, overflow and scheme, under every criterion and termination.
 
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/random.rs"]
@@ -8,15 +8,19 @@ mod random;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/run.rs"]
 mod run;
+#[path = "watertight/unified.rs"]
+mod unified;
 
 use glam::Vec3;
 use random::Random;
-use rtl_model::level::Criterion;
+use rtl_model::level::{Criterion, Termination};
 use rtl_model::number::{Overflow, Rounding};
 use rtl_model::patch::{EDGES, Level, ONE, Point};
 use run::{Keep, Mesh, camera, draw, points, scale};
-use tessim::config::{Config, Scheme};
-use tessim::trace::command::{Command, Primitive, Tessellation};
+use std::sync::Arc;
+use tessim::config::{Config, Scheme, Unit};
+use tessim::trace::command::{Command, Draw, FanEncoding, Primitive, Tessellation};
+use tessim::trace::indices::{IndexFormat, Indices};
 use tessim::unit::simulate;
 
 /// Pairs of patches in one run.
@@ -88,7 +92,9 @@ fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
 }
 
 fn config(random: &mut Random) -> Config {
-    let mut config = Config::default();
+    let unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton]);
+    let mut config = Config { unit, ..Config::default() };
+    config.level.termination = random.of([Termination::EightCurves, Termination::Bounded]);
     config.position.width = 8 + random.integer(0, 40);
     config.position.rounding = random.of(Rounding::ALL);
     config.position.overflow = random.of(Overflow::ALL);
@@ -113,7 +119,7 @@ fn tessellation(random: &mut Random) -> Tessellation {
 }
 
 /// A run's commands: the first patches of all pairs in one frame as `patches`, the second in the
-/// next as meshes.
+/// next, each as a primitive of its own.
 fn commands(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation) -> Vec<Command> {
     let frame = || Command::Frame(camera(Vec3::new(3.0, 2.0, 1.5), 0.5, 12.0));
     let mut commands = vec![Command::Tessellation(tessellation), frame()];
@@ -122,11 +128,34 @@ fn commands(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation) -> Vec<Com
     let count = pairs.len() as u64;
     commands.push(Command::Draw(draw(Primitive::Patches { count }, 0, 0)));
     commands.push(frame());
-    for pair in pairs {
-        commands.push(points(1, pair[1].clone()));
-        commands.push(Command::Draw(draw(Primitive::Mesh { rows: 1, columns: 1 }, 1, 0)));
+    for (k, pair) in pairs.iter().enumerate() {
+        commands.extend(alone(k, &pair[1]));
     }
     commands
+}
+
+/// A patch as a primitive of one patch, which `k` chooses: a fan where its row 0 is collapsed.
+fn alone(k: usize, patch: &[[f32; 3]]) -> [Command; 2] {
+    let collapsed = patch[..4].iter().all(|p| *p == patch[0]);
+    let primitive = match k % 3 {
+        _ if collapsed => Primitive::Fan { count: 1, encoding: FanEncoding::Full },
+        0 => Primitive::Mesh { rows: 1, columns: 1 },
+        1 => Primitive::Strip { count: 1 },
+        _ => Primitive::Indexed { count: 1 },
+    };
+    let mut list = vec![[0.0; 3]; primitive.points().unwrap_or(16) as usize];
+    if let Primitive::Indexed { .. } = primitive {
+        list.copy_from_slice(patch);
+        list.reverse();
+        let row = std::array::from_fn(|k| 15 - k as u32);
+        let indices = Indices { format: IndexFormat::Uint16, points: vec![row], corners: vec![] };
+        let indexed = Draw { indices: Some(Arc::new(indices)), ..draw(primitive, 1, 0) };
+        return [points(1, list), Command::Draw(indexed)];
+    }
+    for (index, point) in primitive.indices(0).into_iter().zip(patch) {
+        list[index as usize] = *point;
+    }
+    [points(1, list), Command::Draw(draw(primitive, 1, 0))]
 }
 
 fn meshes(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation, config: &Config) -> Vec<Mesh> {
@@ -143,6 +172,7 @@ fn meshes(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation, config: &Con
 fn shared_edges_are_bit_identical() {
     let mut random = Random::new(2);
     let (mut edges, mut vertices, mut uneven) = (0, 0, 0);
+    let mut of_unit = [0; Unit::ALL.len()];
     for _ in 0..scale(150, 25_000) {
         let (config, tessellation) = (config(&mut random), tessellation(&mut random));
         let (pairs, shared): (Vec<_>, Vec<_>) = (0..PAIRS).map(|_| pair(&mut random)).unzip();
@@ -159,15 +189,20 @@ fn shared_edges_are_bit_identical() {
             uneven += usize::from(others.iter().any(|&n| n != ra.len()));
             edges += 1;
             vertices += ra.len();
+            of_unit[config.unit as usize] += 1;
         }
     }
     println!(
-        "compared {edges} edge pairs, {vertices} vertices; {uneven} beside an edge of another level"
+        "compared {edges} edge pairs, {vertices} vertices; {uneven} beside an edge of another \
+         level; by unit {of_unit:?}"
     );
     assert!(
         edges >= 6000 && vertices > 5 * edges,
         "only {edges} edges, {vertices} vertices compared"
     );
+    for unit in [Unit::Hybrid, Unit::Sfarti, Unit::Moreton] {
+        assert!(of_unit[unit as usize] * 5 > edges, "{unit:?}: {of_unit:?} of {edges}");
+    }
     assert!(2 * uneven >= edges, "levels differ on only {uneven} of {edges}");
 }
 

@@ -174,8 +174,9 @@ counters! {
         AssembleReused "control_points.reused" Count "control points of patches taken from on-chip state instead of the stream", "received + reused = 16 x patches";
         AssembleWhole "patches.whole" Count "patches of an indexed mesh of which every control point was on chip", "<= patches";
         AssembleCorners "corners.received" Count "corners of patches with attributes that entered, once for each instance", "";
-        AssembleCornersReused "corners.reused" Count "corners with attributes taken from on-chip state instead of the stream", "received + reused = 4 x patches with attributes";
-        AssemblePatches "patches" Count "patches assembled", "= trace patches = clip patches.in";
+        AssembleCornersReused "corners.reused" Count "corners with attributes taken from on-chip state instead of the stream", "received + reused = 4 x trace patches with attributes";
+        AssemblePatches "patches" Count "patches assembled", "= trace patches + patches.measured = clip patches.in";
+        AssembleMeasured "patches.measured" Count "of those, patches of a first pass, which only measures them (`level.union`; unit `sfarti`)", "= trace patches of strips, fans and meshes, or 0";
         AssembleEdgePeak "edge_entries.peak" Entries "most control points of shared edges held at once: a mesh's last row and the last patch's column, a strip's or fan's last edge", "";
         AssembleEdgeLifetime "edge_entries.lifetime.peak" Count "most patches between the one that brings a shared control point and the last that uses it", "";
         AssembleCornerPeak "corner_entries.peak" Entries "most corners whose attributes are held at once for a later patch", "";
@@ -188,10 +189,10 @@ counters! {
         BackfaceIn "patches.in" Count "patches that reached back-face removal, tested or not", "= clip patches.in - patches.culled";
         BackfaceTested "patches.tested" Count "patches tested: the draw culls, the method is not off and no point was saturated", "culled <= tested <= in";
         BackfaceFacets "facets.tested" Count "facets, coefficients or directions, by method, that a test in order looks at until one keeps the patch; all of them where none does", "patches.tested <= facets.tested <= patches.tested x those of the method";
-        BackfaceCulled "patches.culled" Count "patches removed as back-facing", "in - culled = level patches";
+        BackfaceCulled "patches.culled" Count "patches removed as back-facing", "in - culled = level patches + place patches.measured";
     }
     Level {
-        LevelPatches "patches" Count "patches given levels", "= backface patches.in - patches.culled";
+        LevelPatches "patches" Count "patches given levels; once, where they pass twice", "= backface patches.in - patches.culled - place patches.measured";
         LevelFlatness "patches.flatness" Count "patches whose levels keep a flatness", "flatness + edge_length <= patches; the rest have fixed levels";
         LevelEdgeLength "patches.edge_length" Count "patches whose levels come from the lengths of edges", "flatness + edge_length <= patches";
         LevelSplits "splits" Count "de Casteljau subdivisions of boundary and internal curves (unit `sfarti`); 0 where levels come from bounds", "<= 8 x 127 x patches";
@@ -200,6 +201,8 @@ counters! {
         LevelOverflows "overflows" Count "projected control points that did not fit the projection's format", "";
     }
     Place {
+        PlaceMeasured "patches.measured" Count "patches whose lists were taken into the unions of their primitive's columns and rows, and which come again (`level.union`; unit `sfarti`)", "= level patches of strips, fans and meshes, or 0; <= assemble patches.measured";
+        PlaceListsPeak "lists.peak" Entries "most lists of a primitive held at once: one for each column and each row (`level.union`; unit `sfarti`)", "";
         PlaceReciprocals "reciprocals" Count "reciprocals formed: one for each distinct level of a patch above 1", "<= 6 x patches";
         PlaceParameters "parameters" Count "parameters placed: the segments of the four edges, and the inner entries of the two interior lists", "";
     }

@@ -101,6 +101,13 @@ const PLAIN: &[Key] = &[
          bound of the surface (unit sfarti)",
         "eight_curves or bounded",
     ),
+    key(
+        "level.union",
+        "which patches use one union of their lists, so that nothing is left to zip: those of a \
+         strip, fan or mesh that share edges, in two passes, watertight within the primitive but \
+         not against other draws (unit sfarti)",
+        "off or primitive",
+    ),
     key("clip.enabled", "remove patches wholly outside one clip plane", "true or false"),
     key(
         "backface.method",

@@ -13,7 +13,7 @@
 pub mod backface;
 mod level;
 
-use crate::config::{BackfaceMethod, Config, Scheme};
+use crate::config::{BackfaceMethod, Config, Scheme, Termination, Unit};
 use rtl_model::counter::standard::Ops;
 use rtl_model::counter::{Block, Counter as C, Counters};
 
@@ -77,6 +77,22 @@ impl Frame<'_> {
         if self.config.backface.method == method { self.get(C::BackfaceTested) } else { 0 }
     }
 
+    /// Patches of which eight curves were divided until they were flat.
+    fn eight_curves(&self) -> u64 {
+        let divides = self.divides() && self.config.level.termination == Termination::EightCurves;
+        if divides { self.get(C::LevelFlatness) } else { 0 }
+    }
+
+    /// Whether lists come from midpoints.
+    fn divides(&self) -> bool {
+        self.config.unit == Unit::Sfarti
+    }
+
+    /// What is done in units with fractional lists only.
+    fn fractional(&self, counter: C) -> u64 {
+        if self.divides() { 0 } else { self.get(counter) }
+    }
+
     /// Curve points by de Casteljau. Boundary vertices are 2 V - T - 2 in each patch
     /// (T = 2 V - B - 2), and only the rest is his in the mixed scheme.
     fn curve_points(&self) -> u64 {
@@ -98,14 +114,14 @@ impl Frame<'_> {
 }
 
 /// Everything counted. Blocks without a line have no arithmetic of their own: link, memory and
-/// assemble move what they get; what a vertex shader computes is its program's.
+/// assemble move what they get.
 pub const PIECES: &[Piece] = &[
     Piece {
         block: Block::Transform,
         meaning: "a control point times a 4 x 4 matrix in f32: 16 multiplications and 12 additions \
                   of 24-bit significands",
         times: |f| f.get(C::TransformInvocations),
-        once: |_| Ops::default().muls(16, 24, 24).adds(12, 24),
+        once: transformation,
     },
     Piece {
         block: Block::Port,
@@ -128,12 +144,24 @@ pub const PIECES: &[Piece] = &[
     level::PROJECT,
     level::FLATNESS,
     level::EDGE_LENGTH,
+    level::POWERS,
+    level::SPLIT,
+    level::FLAT,
     Piece {
         block: Block::Place,
         meaning: "a patch's six levels, 24 bits: 8 comparisons to raise the interior's, 15 to find \
-                  those that are equal",
-        times: |f| f.get(C::LevelPatches),
+                  those that are equal (not in unit moreton, or in sfarti: there they are wires)",
+        times: |f| {
+            if f.config.unit == Unit::Moreton { 0 } else { f.fractional(C::LevelPatches) }
+        },
         once: |_| Ops::default().compares(8 + 15, 24),
+    },
+    Piece {
+        block: Block::Place,
+        meaning: "unit moreton: a patch's four levels, 24 bits: 2 comparisons for the interior's, \
+                  6 to find those that are equal",
+        times: |f| if f.config.unit == Unit::Moreton { f.get(C::LevelPatches) } else { 0 },
+        once: |_| Ops::default().compares(2 + 6, 24),
     },
     Piece {
         block: Block::Place,
@@ -144,8 +172,9 @@ pub const PIECES: &[Piece] = &[
     },
     Piece {
         block: Block::Place,
-        meaning: "a parameter: one addition of 33 bits, the reciprocal again or 1 - u",
-        times: |f| f.get(C::PlaceParameters),
+        meaning: "a parameter: one addition of 33 bits, the reciprocal again or 1 - u (not in unit \
+                  sfarti)",
+        times: |f| f.fractional(C::PlaceParameters),
         once: |_| Ops::default().adds(1, 33),
     },
     Piece {
@@ -192,8 +221,14 @@ pub const PIECES: &[Piece] = &[
     Piece {
         block: Block::Stitch,
         meaning: "a triangle: the walk's error tested and moved, 8 bits each",
-        times: |f| f.get(C::StitchTriangles),
+        times: |f| f.fractional(C::StitchTriangles),
         once: |_| Ops::default().adds(1, 8).compares(1, 8),
+    },
+    Piece {
+        block: Block::Stitch,
+        meaning: "unit sfarti, a triangle: the two rows' next parameters compared, 8 bits",
+        times: |f| f.get(C::StitchTriangles) - f.fractional(C::StitchTriangles),
+        once: |_| Ops::default().compares(1, 8),
     },
     Piece {
         block: Block::Emit,
@@ -205,13 +240,27 @@ pub const PIECES: &[Piece] = &[
             sides.with(1, reciprocal(f.w)).with(2, quotient(f.w + 15, f.w, f.screen))
         },
     },
+    Piece {
+        block: Block::VertexShader,
+        meaning: "unit moreton: a vertex times a 4 x 4 matrix in f32, as a control point is \
+                  elsewhere; what else a vertex shader computes is its program's",
+        times: |f| f.get(C::VertexShaderInvocations),
+        once: transformation,
+    },
 ];
+
+/// A 4 x 4 matrix in f32 times a vec4.
+fn transformation(_: Formats) -> Ops {
+    Ops::default().muls(16, 24, 24).adds(12, 24)
+}
 
 /// The arithmetic of `block` in a frame with these counters; `None` where it has none of its own.
 pub(super) fn of(block: Block, counters: &Counters, config: &Config) -> Option<Ops> {
     let frame = Frame { counters, config };
     let formats = Formats::of(config);
-    let pieces = PIECES.iter().filter(|piece| piece.block == block);
+    // Elsewhere a vertex shader has no arithmetic that is known here.
+    let known = block != Block::VertexShader || config.unit.in_object_space();
+    let pieces = PIECES.iter().filter(|piece| piece.block == block && known);
     pieces.fold(None, |sum, piece| {
         let times = (piece.times)(&frame);
         Some(sum.unwrap_or_default().with(times, (piece.once)(formats)))

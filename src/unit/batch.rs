@@ -2,30 +2,36 @@
 //! tessellated on all threads, handed to the sink in draw order.
 //!
 //! A batch is bounded, so memory does not grow with the trace; meshes are kept only where the sink
-//! wants them, a wave of patches at a time.
+//! wants them, a wave of patches at a time. Patches that are only measured (`union`) go first: what
+//! they ask for must be known before any patch of their instance is drawn, and they stand before
+//! all of those.
+
+mod pieces;
 
 use super::attributes::Corners;
 use super::chain::Work as Done;
 use super::clock::{Clock, Fetch};
 use super::frame::FrameState;
 use super::pipeline::{Front, Pipeline};
+use super::union::{Pass, Share, Shared, Site};
 use crate::config::Config;
 use crate::error::Result;
 use crate::shader::control_point;
-use crate::sink::{PatchMesh, Sink};
-use crate::trace::attributes::AttributeTable;
+use crate::sink::Sink;
 use glam::Mat4;
 use rayon::prelude::*;
 use rtl_model::counter::{Counter, Counters};
-use rtl_model::emit::Screen;
 use rtl_model::level::State;
 use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
-use rtl_model::patch::{Patch, Triangle, Vertex};
+use rtl_model::patch::Patch;
 use rtl_model::port::{self, Quantised};
 use rtl_model::strip::Topology;
-use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
+
+use pieces::Pieces;
+
+pub(super) use pieces::add;
 
 /// Patches of a full batch: 4 MB of points, and few enough batches that threads seldom wait.
 pub(super) const PATCHES_MAX: usize = 4096;
@@ -55,6 +61,8 @@ struct Pending {
     pub(super) draw: u32,
     /// What brings its points.
     fetch: Fetch,
+    /// Where it is in its primitive.
+    site: Site,
 }
 
 /// A command that crosses the link among the patches.
@@ -83,6 +91,14 @@ pub(super) struct DrawState {
     pub(super) vertex_bytes: u64,
     /// The attributes of its corners.
     pub(super) attributes: Option<Arc<Corners>>,
+    /// What its patches share, where their lists are unified.
+    pub(super) shared: Option<Shared>,
+}
+
+impl DrawState {
+    fn measures(&self) -> bool {
+        self.shared.as_ref().is_some_and(|shared| shared.pass == Pass::Measure)
+    }
 }
 
 /// Vertices and triangles that came of one draw.
@@ -179,9 +195,16 @@ impl Batch {
     }
 
     /// Adds a patch of the draw that was added last.
-    pub(super) fn patch(&mut self, id: u32, indices: [u32; 16], corners: [u32; 4], fetch: Fetch) {
+    pub(super) fn patch(
+        &mut self,
+        id: u32,
+        site: Site,
+        indices: [u32; 16],
+        corners: [u32; 4],
+        fetch: Fetch,
+    ) {
         let draw = self.draws.len() as u32 - 1;
-        self.patches.push(Pending { id, indices, corners, draw, fetch });
+        self.patches.push(Pending { id, indices, corners, draw, fetch, site });
     }
 
     /// Tessellates what waits and empties the batch. Returns vertices and triangles by draw.
@@ -197,7 +220,8 @@ impl Batch {
         clock: &mut Clock<F::Lists>,
     ) -> Result<Vec<Tally>> {
         self.quantise(config, frame, counters);
-        let work = Work::<F> { batch: self, config, frame, front: PhantomData };
+        let mut work = Work::<F> { batch: self, config, frame, measured: Vec::new() };
+        work.measure(counters);
         let mut timed = Timing { batch: self, clock, patches: 0, commands: 0 };
         let tallies = match sink {
             None => work.count(counters, &mut timed),
@@ -316,44 +340,49 @@ impl<T: Topology> Timing<'_, T> {
 }
 
 /// A batch whose points are quantised.
-struct Work<'a, F> {
+struct Work<'a, F: Front> {
     batch: &'a Batch,
     config: &'a Config,
     frame: &'a FrameState,
-    front: PhantomData<F>,
-}
-
-/// What a thread made of a few patches.
-#[derive(Default)]
-struct Pieces<T> {
-    patches: Vec<Piece>,
-    vertices: Vec<Vertex>,
-    screen: Vec<Screen>,
-    triangles: Vec<Triangle>,
-    attributes: Vec<i64>,
-    tallies: Vec<Tally>,
-    done: Vec<Done<T>>,
-    counters: Counters,
-}
-
-/// A patch's ends within [`Pieces`].
-struct Piece {
-    id: u32,
-    reversed: bool,
-    vertices: usize,
-    screen: usize,
-    triangles: usize,
-    to_world: [f64; 16],
-    table: Option<Arc<AttributeTable>>,
+    /// What became of the patches that are only measured, patch by patch; empty where none is.
+    measured: Vec<Option<Done<F::Lists>>>,
 }
 
 impl<F: Front> Work<'_, F> {
+    /// The patches that are only measured, before all others.
+    fn measure(&mut self, counters: &mut Counters) {
+        let Batch { patches, draws, .. } = self.batch;
+        if !draws.iter().any(DrawState::measures) {
+            return;
+        }
+        let measure = |pipeline: &mut Pipeline<'_, F>, part: &[Pending]| {
+            let one = |pending: &Pending| {
+                let draw = &draws[pending.draw as usize];
+                let shared = draw.shared.as_ref().filter(|_| draw.measures())?;
+                let patch = self.gather(pending, draw, &self.batch.quantised);
+                pipeline.measure(&patch, &draw.state, Share { shared, site: pending.site });
+                Some(pipeline.work)
+            };
+            let done: Vec<_> = part.iter().map(one).collect();
+            (done, std::mem::take(&mut pipeline.counters))
+        };
+        let parts: Vec<_> =
+            patches.par_chunks(GRAIN).map_init(|| self.pipeline(), measure).collect();
+        let mut measured = Vec::with_capacity(patches.len());
+        for (done, part) in parts {
+            measured.extend(done);
+            counters.merge(&part);
+        }
+        self.measured = measured;
+    }
+
     /// Counters only.
     fn count(&self, counters: &mut Counters, timed: &mut Timing<'_, F::Lists>) -> Vec<Tally> {
         let all = &self.batch.patches;
         let parts: Vec<Pieces<F::Lists>> = all
             .par_chunks(GRAIN)
-            .map_init(|| self.pipeline(), |p, part| self.run(p, part, false))
+            .enumerate()
+            .map_init(|| self.pipeline(), |p, (k, part)| self.run(p, k * GRAIN, part, false))
             .collect();
         let mut tallies = Vec::new();
         for part in parts {
@@ -371,10 +400,12 @@ impl<F: Front> Work<'_, F> {
         timed: &mut Timing<'_, F::Lists>,
     ) -> Result<Vec<Tally>> {
         let mut tallies = Vec::new();
-        for wave in self.batch.patches.chunks(WAVE) {
+        for (n, wave) in self.batch.patches.chunks(WAVE).enumerate() {
+            let first = |k: usize| n * WAVE + k * GRAIN;
             let parts: Vec<Pieces<F::Lists>> = wave
                 .par_chunks(GRAIN)
-                .map_init(|| self.pipeline(), |p, part| self.run(p, part, true))
+                .enumerate()
+                .map_init(|| self.pipeline(), |p, (k, part)| self.run(p, first(k), part, true))
                 .collect();
             for part in parts {
                 part.send(sink)?;
@@ -389,19 +420,27 @@ impl<F: Front> Work<'_, F> {
         Pipeline::new(self.config, self.frame)
     }
 
+    /// Some patches that stand together, from the batch's patch `first` on.
     fn run(
         &self,
         pipeline: &mut Pipeline<'_, F>,
+        first: usize,
         patches: &[Pending],
         keep: bool,
     ) -> Pieces<F::Lists> {
         let mut pieces = Pieces::default();
-        for pending in patches {
+        for (number, pending) in (first..).zip(patches) {
+            if let Some(&Some(measured)) = self.measured.get(number) {
+                pieces.done.push(measured);
+                continue;
+            }
             let draw = &self.batch.draws[pending.draw as usize];
+            let share = draw.shared.as_ref().map(|shared| Share { shared, site: pending.site });
             let patch = self.gather(pending, draw, &self.batch.quantised);
             let seen =
                 (!self.batch.seen.is_empty()).then(|| self.gather(pending, draw, &self.batch.seen));
-            if pipeline.accept(&patch, seen.as_ref().unwrap_or(&patch), &draw.state) {
+            let seen = seen.as_ref().unwrap_or(&patch);
+            if pipeline.accept(&patch, seen, &draw.state, share) {
                 pieces.tally(draw.number, pipeline);
                 let attributes = draw.attributes.as_deref();
                 if let Some(attributes) = attributes {
@@ -435,71 +474,5 @@ impl<F: Front> Work<'_, F> {
             cull: draw.cull,
             reversed: draw.reversed,
         }
-    }
-}
-
-impl<T: Topology> Pieces<T> {
-    fn tally<F: Front>(&mut self, draw: u32, made: &Pipeline<'_, F>) {
-        let tally = Tally {
-            draw,
-            vertices: made.vertices.len() as u64,
-            triangles: made.triangles().len() as u64,
-        };
-        add(&mut self.tallies, tally);
-    }
-
-    fn keep<F: Front>(&mut self, pending: &Pending, draw: &DrawState, made: &Pipeline<'_, F>) {
-        self.vertices.extend_from_slice(&made.vertices);
-        self.screen.extend_from_slice(&made.screen);
-        self.triangles.extend_from_slice(made.triangles());
-        self.patches.push(Piece {
-            id: pending.id,
-            reversed: draw.reversed,
-            vertices: self.vertices.len(),
-            screen: self.screen.len(),
-            triangles: self.triangles.len(),
-            to_world: draw.to_world,
-            table: draw.attributes.as_ref().map(|corners| corners.table.clone()),
-        });
-    }
-
-    fn send(&self, sink: &mut dyn Sink) -> Result<()> {
-        let (mut v, mut s, mut t) = (0, 0, 0);
-        let mut values = &self.attributes[..];
-        for piece in &self.patches {
-            let components = piece.table.as_ref().map_or(0, |table| table.components());
-            let (attributes, later) = values.split_at(components * (piece.vertices - v));
-            values = later;
-            sink.patch(&PatchMesh {
-                patch: piece.id,
-                reversed: piece.reversed,
-                vertices: &self.vertices[v..piece.vertices],
-                screen: &self.screen[s..piece.screen],
-                triangles: &self.triangles[t..piece.triangles],
-                layout: piece.table.as_ref().map_or(&[], |table| &table.layout),
-                attributes,
-                to_world: &piece.to_world,
-            })?;
-            (v, s, t) = (piece.vertices, piece.screen, piece.triangles);
-        }
-        Ok(())
-    }
-
-    fn account(self, counters: &mut Counters, tallies: &mut Vec<Tally>) {
-        counters.merge(&self.counters);
-        for tally in self.tallies {
-            add(tallies, tally);
-        }
-    }
-}
-
-/// Adds to the last tally, if it is of the same draw.
-pub(super) fn add(tallies: &mut Vec<Tally>, tally: Tally) {
-    match tallies.last_mut() {
-        Some(last) if last.draw == tally.draw => {
-            last.vertices += tally.vertices;
-            last.triangles += tally.triangles;
-        }
-        _ => tallies.push(tally),
     }
 }

@@ -31,6 +31,8 @@ pub(super) enum Fate {
     Clipped,
     /// Removed as back-facing.
     Culled,
+    /// Its lists were taken into its primitive's unions; it comes again to be tessellated.
+    Measured,
     /// Tessellated.
     Kept,
 }
@@ -43,7 +45,7 @@ pub(super) struct Work<T> {
     /// Whether back-face removal tested it.
     pub(super) tested: bool,
     /// What the level block did one after another: six levels, or one where it is fixed; or the
-    /// pieces of curves that it looked at.
+    /// pieces of curves that it looked at; 0 where it did so when the patch was measured.
     pub(super) levels: u16,
     /// Reciprocals formed.
     pub(super) reciprocals: u8,

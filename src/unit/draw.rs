@@ -1,12 +1,15 @@
 //! Draw: a draw command in, its patches in the batch: block by block, each with what must be
-//! fetched for it.
+//! fetched for it. Where the patches of a primitive share their lists (`union`), each instance
+//! passes twice: first to be measured, without its attributes; and its points are fetched,
+//! transformed and tested again in the second pass.
 
 use super::attributes::{Corners, NO_CORNERS};
 use super::batch::DrawState;
 use super::clock::Fetch;
 use super::pipeline::Front;
 use super::run::Run;
-use crate::config::{Config, Memory};
+use super::union::{Pass, Shared, Site, Unions};
+use crate::config::{Config, Memory, Union};
 use crate::error::{Error, Result};
 use crate::link::{self, Bursts};
 use crate::shader::control_point;
@@ -84,6 +87,9 @@ struct Placed {
     indexed: Vec<([u32; 16], u16)>,
 }
 
+/// An instance whose blocks are all in the batch: its spans, and where its points are.
+type Whole = (Range<usize>, Placed);
+
 impl<F: Front> Run<'_, F> {
     /// Carries out a draw.
     pub(super) fn draw(&mut self, draw: &Draw) -> Result<()> {
@@ -101,37 +107,62 @@ impl<F: Front> Run<'_, F> {
             to_world: frame.to_world,
             vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
             attributes: source.attributes.clone(),
+            shared: None,
         };
+        // What the first of two passes takes.
+        let bare = Source { points: source.points.clone(), attributes: None, ..source };
         // The spans of the instance before, while the batch holds all of it.
-        let mut whole: Option<(Range<usize>, Placed)> = None;
+        let mut whole = None;
         for model in &draw.models {
             let mut state = state.clone();
             if self.config.unit.in_object_space() {
                 state.to_world = model.map(f64::from);
             }
             let model = Mat4::from_cols_array(model);
-            let mut instance = Instance {
-                matrix: control_point::concatenate(&frame.clip_from_world, &model),
-                state,
-                points: Bursts::default(),
-                corners: Bursts::default(),
-                cache: Cache::new(self.config.assemble.cache_entries),
-                received: [0; 3],
-            };
-            match whole.take() {
-                Some((spans, mut placed))
-                    if self.batch.room() as u64 >= draw.primitive.patches() =>
-                {
-                    self.batch.draw(instance.state.clone());
-                    placed.base = self.batch.again(instance.matrix, spans.clone());
-                    self.patches(&source, &mut instance, Block::whole(draw.primitive), &placed);
-                    whole = Some((spans, placed));
-                }
-                _ => whole = self.instance(&source, &mut instance)?,
+            let matrix = control_point::concatenate(&frame.clip_from_world, &model);
+            if !self.unites(draw.primitive) {
+                whole = self.pass(&source, Instance::new(matrix, state, self.config), whole)?;
+                continue;
             }
-            instance.count(&source, self.config, &mut self.counters);
+            let unions = Arc::new(Unions::new(draw.primitive.size()));
+            for (pass, source) in [(Pass::Measure, &bare), (Pass::Draw, &source)] {
+                let shared = Some(Shared { pass, unions: unions.clone() });
+                let attributes = source.attributes.clone();
+                let state = DrawState { shared, attributes, ..state.clone() };
+                let before = self.patches;
+                whole = self.pass(source, Instance::new(matrix, state, self.config), whole)?;
+                if pass == Pass::Measure {
+                    self.patches = before; // their numbers are those of the second pass
+                }
+            }
         }
         Ok(())
+    }
+
+    /// Whether the patches of this primitive get unified lists.
+    fn unites(&self, primitive: Primitive) -> bool {
+        self.config.union() == Union::Primitive && primitive.shares_edges()
+    }
+
+    /// All patches of an instance, once.
+    fn pass(
+        &mut self,
+        source: &Source<'_>,
+        mut instance: Instance,
+        whole: Option<Whole>,
+    ) -> Result<Option<Whole>> {
+        let primitive = source.draw.primitive;
+        let whole = match whole {
+            Some((spans, mut placed)) if self.batch.room() as u64 >= primitive.patches() => {
+                self.batch.draw(instance.state.clone());
+                placed.base = self.batch.again(instance.matrix, spans.clone());
+                self.patches(source, &mut instance, Block::whole(primitive), &placed);
+                Some((spans, placed))
+            }
+            _ => self.instance(source, &mut instance)?,
+        };
+        instance.count(source, self.config, &mut self.counters);
+        Ok(whole)
     }
 
     /// What a draw counts whatever becomes of its patches.
@@ -146,10 +177,17 @@ impl<F: Front> Run<'_, F> {
                 "a frame of {count} patches: expected at most {most}"
             )));
         }
+        let unites = self.unites(primitive);
         let counters = &mut self.counters;
         counters.add(Counter::TraceDraws, 1);
         counters.add(Counter::TracePatches, patches);
         counters.add(Counter::AssemblePatches, patches);
+        if unites {
+            let (rows, columns) = primitive.size();
+            counters.add(Counter::AssemblePatches, patches);
+            counters.add(Counter::AssembleMeasured, patches);
+            counters.add(Counter::PlaceListsPeak, rows + columns);
+        }
         counters.add(Counter::AssembleEdgePeak, primitive.edge_entries_peak());
         counters.add(Counter::AssembleEdgeLifetime, primitive.edge_lifetime_peak());
         if attributes.is_some() {
@@ -162,11 +200,7 @@ impl<F: Front> Run<'_, F> {
 
     /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row. Returns
     /// its spans, if one block took it all.
-    fn instance(
-        &mut self,
-        source: &Source<'_>,
-        instance: &mut Instance,
-    ) -> Result<Option<(Range<usize>, Placed)>> {
+    fn instance(&mut self, source: &Source<'_>, instance: &mut Instance) -> Result<Option<Whole>> {
         let Block { rows, columns, .. } = Block::whole(source.draw.primitive);
         let (mut row, mut column) = (0, 0);
         let mut whole = None;
@@ -302,7 +336,9 @@ impl<F: Front> Run<'_, F> {
         };
         let across = primitive.size().1;
         for n in 0..local.patches() {
-            let number = (row + n / columns) * across + column + n % columns;
+            let (row, column) = (row + n / columns, column + n % columns);
+            let number = row * across + column;
+            let site = Site { row: row as u32, column: column as u32 }; // at most 2^24
             let (indices, brought) = match placed.indexed.get(n as usize) {
                 Some(&(indices, missed)) => (indices, Brought::Missed(missed)),
                 None => {
@@ -313,7 +349,7 @@ impl<F: Front> Run<'_, F> {
             let corners = source.corners(number);
             let fetch = instance.fetch(source, number, brought, self.config);
             let indices = indices.map(|i| placed.base + i);
-            self.batch.patch(self.patches as u32, indices, corners, fetch);
+            self.batch.patch(self.patches as u32, site, indices, corners, fetch);
             self.patches += 1;
         }
     }
@@ -332,6 +368,17 @@ impl Source<'_> {
 }
 
 impl Instance {
+    fn new(matrix: Mat4, state: DrawState, config: &Config) -> Self {
+        Self {
+            matrix,
+            state,
+            points: Bursts::default(),
+            corners: Bursts::default(),
+            cache: Cache::new(config.assemble.cache_entries),
+            received: [0; 3],
+        }
+    }
+
     /// What patch `number` brings.
     fn fetch(
         &mut self,

@@ -3,7 +3,8 @@
 //! Commands come in, triangles stream into a sink, counters come out. `run` carries out the
 //! commands, `frame` derives what is constant over a frame, `batch` collects patches and spreads
 //! them over the threads, `pipeline` takes one patch through the blocks, of which `hybrid`,
-//! `sfarti` and `moreton` each have some of their own; `tokens` and `arithmetic`
+//! `sfarti` and `moreton` each have some of their own; `union` holds the lists that patches of a
+//! primitive share; `tokens` and `arithmetic`
 //! say from a frame's counters what flowed and what it took.
 
 pub mod arithmetic;
@@ -21,6 +22,7 @@ mod run;
 mod sfarti;
 mod state;
 mod tokens;
+mod union;
 
 use crate::config::{Config, Unit};
 use crate::error::Result;

@@ -8,6 +8,7 @@
 
 use super::chain::{Fate, Work};
 use super::frame::FrameState;
+use super::union::{Pass, Share};
 use crate::config::{Config, Normals};
 use rtl_model::backface::{self, Verdict};
 use rtl_model::clip;
@@ -40,13 +41,15 @@ pub(super) struct Placing<'a> {
     pub(super) view: &'a View,
     pub(super) patch: &'a Patch,
     pub(super) state: &'a State,
+    /// Its part in its primitive's unions, where it has one.
+    pub(super) share: Option<Share<'a>>,
 }
 
 /// What became of it.
 pub(super) struct Placed<T> {
     pub(super) lists: T,
     pub(super) events: Events,
-    /// What the level block does one after another.
+    /// What the level block does one after another; 0 where it has done it before.
     pub(super) levels: u16,
     /// Reciprocals formed.
     pub(super) reciprocals: u8,
@@ -96,17 +99,34 @@ impl<'a, F: Front> Pipeline<'a, F> {
 
     /// Takes a patch through all blocks. Its levels are chosen from `seen`: the patch itself, but
     /// where they come from before the unit. Returns whether anything is left of it.
-    pub(super) fn accept(&mut self, patch: &Patch, seen: &Patch, state: &State) -> bool {
+    pub(super) fn accept(
+        &mut self,
+        patch: &Patch,
+        seen: &Patch,
+        state: &State,
+        share: Option<Share<'_>>,
+    ) -> bool {
         self.screen.clear();
         self.work = Work::clipped();
         if F::CULLS && !self.keeps(patch) {
             return false;
         }
         self.work.fate = Fate::Kept;
-        self.place(seen, state);
+        self.place(seen, state, share);
         self.shape(patch);
         self.send();
         true
+    }
+
+    /// Takes a patch as far as its lists, which go into the unions of its primitive.
+    pub(super) fn measure(&mut self, patch: &Patch, state: &State, share: Share<'_>) {
+        self.work = Work::clipped();
+        if F::CULLS && !self.keeps(patch) {
+            return;
+        }
+        self.work.fate = Fate::Measured;
+        self.place(patch, state, Some(share));
+        self.counters.add(Counter::PlaceMeasured, 1);
     }
 
     /// Clip and backface.
@@ -129,17 +149,29 @@ impl<'a, F: Front> Pipeline<'a, F> {
     }
 
     /// Level and place.
-    fn place(&mut self, patch: &Patch, state: &State) {
+    fn place(&mut self, patch: &Patch, state: &State, share: Option<Share<'_>>) {
         let Self { config, view, .. } = self;
-        let placing = Placing { config, view, patch, state };
-        let Placed { lists, events, levels, reciprocals } = F::place(placing, &mut self.placement);
-        self.work.levels = levels;
-        self.work.reciprocals = reciprocals;
-        self.work.lists = lists;
-        let [columns, rows] = lists.interior();
+        let placing = Placing { config, view, patch, state, share };
+        let placed = F::place(placing, &mut self.placement);
+        self.work.levels = placed.levels;
+        self.work.reciprocals = placed.reciprocals;
+        self.work.lists = placed.lists;
+        let pass = share.map(|share| share.shared.pass);
+        if pass != Some(Pass::Draw) {
+            self.count_levels(state.criterion, placed.events);
+        }
+        if pass != Some(Pass::Measure) {
+            let [columns, rows] = placed.lists.interior();
+            let parameters = placed.lists.boundary() + columns + rows;
+            self.counters.add(Counter::PlaceReciprocals, placed.reciprocals.into());
+            self.counters.add(Counter::PlaceParameters, parameters as u64);
+        }
+    }
+
+    fn count_levels(&mut self, criterion: Criterion, events: Events) {
         let counters = &mut self.counters;
         counters.add(Counter::LevelPatches, 1);
-        match state.criterion {
+        match criterion {
             Criterion::Flatness { .. } => counters.add(Counter::LevelFlatness, 1),
             Criterion::EdgeLength { .. } => counters.add(Counter::LevelEdgeLength, 1),
             Criterion::Fixed { .. } => {}
@@ -148,8 +180,6 @@ impl<'a, F: Front> Pipeline<'a, F> {
         counters.add(Counter::LevelClamped, events.clamped.into());
         counters.add(Counter::LevelNear, events.near.into());
         counters.add(Counter::LevelOverflows, events.overflows.into());
-        counters.add(Counter::PlaceReciprocals, reciprocals.into());
-        counters.add(Counter::PlaceParameters, (lists.boundary() + columns + rows) as u64);
     }
 
     /// Evaluate and stitch.

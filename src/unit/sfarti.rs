@@ -6,10 +6,15 @@
 //!   patch ─► clip ─► backface ─► level ─► place ─► evaluate ─► stitch ─► emit ─► vertex shader
 //!                                divides  lists    de Casteljau zipper
 //! ```
+//!
+//! Each edge has its own list, a function of its four points: neighbours agree, whatever draws
+//! them. Under `level.union = "primitive"` the patches of a strip, fan or mesh share one list a
+//! row and one a column instead (`union`), and there is nothing to zip.
 
 use super::chain;
 use super::pipeline::{Front, Placed, Placing};
-use rtl_model::level::{self, Criterion, Termination};
+use super::union::Pass;
+use rtl_model::level::{self, Criterion, Events, Termination};
 use rtl_model::patch::Lists;
 use rtl_model::place::{DyadicList, DyadicPlacement};
 
@@ -25,17 +30,37 @@ impl Front for Sfarti {
     const CULLS: bool = true;
 
     fn place(work: Placing<'_>, placement: &mut DyadicPlacement) -> Placed<Lists> {
-        let Placing { config, view, patch, state } = work;
-        let termination = config.level.termination;
-        let (lists, events) = level::subdivide(patch, view, state, termination);
-        placement.set_lists(&lists);
-        let levels = match (state.criterion, termination) {
-            // Every piece is looked at once: those of the curves, and two of each division.
-            (Criterion::Flatness { .. }, Termination::EightCurves) => {
-                (CURVES + 2 * events.splits) as u16 // at most 8 x 255
-            }
-            (criterion, _) => chain::levels(criterion),
+        let Some(share) = work.share else {
+            let placed = choose(&work);
+            placement.set_lists(&placed.lists);
+            return placed;
         };
-        Placed { lists, events, levels, reciprocals: 0 }
+        match share.shared.pass {
+            Pass::Measure => {
+                let placed = choose(&work);
+                share.measure(&placed.lists);
+                placed
+            }
+            Pass::Draw => {
+                let lists = share.lists();
+                placement.set_lists(&lists);
+                Placed { lists, events: Events::default(), levels: 0, reciprocals: 0 }
+            }
+        }
     }
+}
+
+/// The lists that the patch asks for by itself.
+fn choose(work: &Placing<'_>) -> Placed<Lists> {
+    let &Placing { config, view, patch, state, .. } = work;
+    let termination = config.level.termination;
+    let (lists, events) = level::subdivide(patch, view, state, termination);
+    let levels = match (state.criterion, termination) {
+        // Every piece is looked at once: those of the curves, and two of each division.
+        (Criterion::Flatness { .. }, Termination::EightCurves) => {
+            (CURVES + 2 * events.splits) as u16 // at most 8 x 255
+        }
+        (criterion, _) => chain::levels(criterion),
+    };
+    Placed { lists, events, levels, reciprocals: 0 }
 }

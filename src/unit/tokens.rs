@@ -26,6 +26,8 @@ fn patches(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
     // Patches without a control point of their own are tokens on their way to assemble.
     let whole = get(C::AssembleWhole);
     let clipped = get(C::ClipIn) - get(C::ClipCulled);
+    // Patches that are measured pass place's door again before they leave it.
+    let placed = get(C::LevelPatches) + get(C::PlaceMeasured);
     match block {
         Block::Link => [sent; 2],
         Block::Memory => [sent, get(C::PortPoints) + whole],
@@ -34,7 +36,8 @@ fn patches(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
         Block::Assemble => [get(C::AssembleReceived) + whole, get(C::AssemblePatches)],
         Block::Clip => [get(C::ClipIn), clipped],
         Block::Backface => [get(C::BackfaceIn), get(C::BackfaceIn) - get(C::BackfaceCulled)],
-        Block::Level | Block::Place => [get(C::LevelPatches); 2],
+        Block::Level => [placed; 2],
+        Block::Place => [placed, get(C::LevelPatches)],
         Block::Evaluate => [get(C::LevelPatches), get(C::EvaluateStrips)],
         Block::Stitch => [get(C::EvaluateStrips), get(C::StitchTriangles)],
         Block::Emit => [get(C::StitchTriangles), get(C::EmitVertices)],

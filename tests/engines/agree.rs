@@ -5,7 +5,7 @@ use crate::random::Random;
 use crate::run::{Keep, scale};
 use crate::runs::{self, Said, configuration, run_by, said, set};
 use rayon::prelude::*;
-use rtl_model::counter::Block;
+use rtl_model::counter::{Block, Counter};
 use std::ops::Add;
 use tessim::config::block::TIMED;
 use tessim::config::keys::KEYS;
@@ -146,6 +146,57 @@ fn timed_and_stepped_agree_under_every_kind_of_configuration() {
     }
 }
 
+/// Settings of the units that do not divide their patches as the hybrid does. The first of each
+/// unit is its default.
+const OTHER_UNITS: [&[&str]; 9] = [
+    &["unit=sfarti"],
+    &["unit=sfarti", "level.termination=bounded"],
+    &["unit=sfarti", "level.union=primitive"],
+    &["unit=sfarti", "level.union=primitive", "level.termination=bounded", "frames=overlap"],
+    &["unit=sfarti", "level.union=primitive", "memory.channels=shared", "block.place.lanes=3"],
+    &["unit=sfarti", "level.level=5", "block.level.latency=40", "block.level.fifo=1"],
+    &["unit=moreton"],
+    &["unit=moreton", "evaluate.scheme=de_casteljau", "link.transfer=pull"],
+    &["unit=moreton", "memory.channels=shared", "vertex_shader.to_memory=true"],
+];
+
+#[test]
+fn timed_and_stepped_agree_in_every_unit() {
+    let traces = traces();
+    let all: Vec<(Vec<Said>, Compared)> = OTHER_UNITS
+        .par_iter()
+        .map(|settings| {
+            let config = set(settings);
+            let one = |(trace, text): &(String, String)| {
+                let (said, compared) = both(&format!("{trace}, {settings:?}"), text, &config);
+                meshes_do_not_change(text, &config, &said);
+                (said, compared)
+            };
+            let (said, compared): (Vec<_>, Vec<_>) = traces.iter().map(one).unzip();
+            (said, compared.into_iter().fold(Compared::default(), Add::add))
+        })
+        .collect();
+    let compared = all.iter().fold(Compared::default(), |sum, (_, compared)| sum + *compared);
+    println!("compared {compared:?}");
+    for (k, (said, _)) in all.iter().enumerate() {
+        assert!(all[..k].iter().all(|(other, _)| other != said), "{:?}", OTHER_UNITS[k]);
+    }
+}
+
+/// A run whose meshes are wanted says the same, and they are as many as it says.
+fn meshes_do_not_change(text: &str, config: &Config, counted: &Said) {
+    let mut sink = Keep::default();
+    let report = runs::run_into(text, config, &mut sink);
+    assert!(said(&report) == *counted, "meshes change what is said");
+    let [vertices, triangles] = [
+        sink.meshes.iter().map(|mesh| mesh.vertices.len()).sum::<usize>(),
+        sink.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
+    ];
+    assert_eq!(vertices as u64, report.total(Counter::EmitVertices));
+    assert_eq!(triangles as u64, report.total(Counter::EmitTriangles));
+    assert_eq!(sink.meshes.len() as u64, report.total(Counter::LevelPatches));
+}
+
 /// A setting of a block's key that is far from its default.
 fn far(block: Block, key: &str) -> Option<[String; 2]> {
     let path = |key: &str| format!("block.{}.{key}", block.name());
@@ -217,7 +268,9 @@ fn any(random: &mut Random) -> Config {
     let mut settings = vec![
         format!("clock_mhz={}", random.of([50, 400, 2000])),
         format!("frames={}", random.of(["drain", "overlap"])),
-        format!("unit={}", random.of(["hybrid", "hybrid", "hybrid", "triangles"])),
+        format!("unit={}", random.of(["hybrid", "sfarti", "moreton", "triangles"])),
+        format!("level.termination={}", random.of(["eight_curves", "bounded"])),
+        format!("level.union={}", random.of(["off", "primitive"])),
         format!("link.bus={}", random.of(["agp1x", "agp8x", "pcie1x1", "pcie4x16"])),
         format!("link.transfer={}", random.of(["push", "pull"])),
         format!("link.latency={}", random.integer(0, 300)),
@@ -259,6 +312,8 @@ fn timed_and_stepped_agree_under_any_configuration() {
         runs::resident_grid(17, 2),
         runs::shipped("mesh"),
         runs::shipped("teaspoon"),
+        runs::shipped("strip"),
+        runs::shipped("indexed"),
     ];
     let (count, started) = (scale(120, 3000), std::time::Instant::now());
     let compared = (0..count as u64)
@@ -298,10 +353,11 @@ fn without_an_engine_all_but_the_cycles_is_the_same() {
 fn threads_and_meshes_do_not_change_what_is_timed() {
     // More patches than a batch holds, with commands among them; and instances of one draw.
     let traces = [runs::grid(66, 1), runs::teacups(170, 2, 1), runs::shipped("mesh")];
+    let unified = ["unit=sfarti", "level.union=primitive"];
     let mut runs = 0;
     for (k, text) in traces.iter().enumerate() {
         for settings in
-            [&[][..], &["unit=triangles", "frames=overlap"], &["memory.channels=shared"]]
+            [&[][..], &["unit=triangles", "frames=overlap"], &["memory.channels=shared"], &unified]
         {
             let config = set(settings);
             let expected = said(&runs::run(text, &config));

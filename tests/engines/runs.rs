@@ -14,7 +14,8 @@ use tessim::trace::scene::teacups::Teacups;
 use tessim::unit::simulate;
 
 /// The traces that are shipped.
-pub(crate) const SHIPPED: [&str; 5] = ["mesh", "rational", "teacup", "teapot", "teaspoon"];
+pub(crate) const SHIPPED: [&str; 8] =
+    ["fan", "indexed", "mesh", "rational", "strip", "teacup", "teapot", "teaspoon"];
 
 /// A shipped trace.
 pub(crate) fn shipped(name: &str) -> String {

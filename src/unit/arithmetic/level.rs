@@ -2,6 +2,7 @@
 //!
 //! Widths, from `rtl_model/src/level.rs` and its `bound.rs`: a pixel Q24.16 is 40 bits, a second
 //! difference of pixels 42, its square 84, a level UQ8.16 24, a level that is asked for UQ48.16.
+//! From `level/subdivide.rs`: a divided coordinate W + 12, pixels from a piece's end 41.
 
 use super::{Formats, Piece, quotient, reciprocal, root};
 use rtl_model::counter::standard::Ops;
@@ -14,12 +15,15 @@ const ASKED: u64 = 64;
 /// Pixels of a criterion, UQ16.16, or 1 / pixels, which is formed once for a tessellation state.
 const TOLERANCE: u64 = 32;
 
-/// What every criterion needs.
+/// Guard bits of a divided coordinate.
+const GUARD: u64 = 12;
+
+/// What every criterion needs that ends in levels.
 pub(super) const GRANT: Piece = Piece {
     block: Block::Level,
     meaning: "a patch's six levels against min and max (12 comparisons of 64 bits), and the \
-              interior's against its edges (4 of 24)",
-    times: |f| f.get(C::LevelPatches),
+              interior's against its edges (4 of 24); not where eight curves are divided",
+    times: |f| f.get(C::LevelPatches) - f.eight_curves(),
     once: |_| Ops::default().compares(12, ASKED).compares(4, LEVEL),
 };
 
@@ -38,8 +42,8 @@ pub(super) const FLATNESS: Piece = Piece {
     block: Block::Level,
     meaning: "flatness: 16 second differences along the net and 9 across it, their squared \
               lengths, the greatest of each edge and direction and their roots, six levels from \
-              them, and the interior's raised by the bound",
-    times: |f| f.get(C::LevelFlatness),
+              them, and the interior's raised by the bound; not where eight curves are divided",
+    times: |f| f.get(C::LevelFlatness) - f.eight_curves(),
     once: |_| flatness(),
 };
 
@@ -52,10 +56,65 @@ pub(super) const EDGE_LENGTH: Piece = Piece {
     once: |_| edge_length(),
 };
 
+/// What levels need besides to be lists.
+pub(super) const POWERS: Piece = Piece {
+    block: Block::Level,
+    meaning: "unit sfarti, other than where eight curves are divided: six levels rounded up to \
+              powers of two, a decrement of 24 bits each",
+    times: |f| if f.divides() { f.get(C::LevelPatches) - f.eight_curves() } else { 0 },
+    once: |_| Ops::default().adds(6, LEVEL),
+};
+
+/// What eight curves need for each division.
+pub(super) const SPLIT: Piece = Piece {
+    block: Block::Level,
+    meaning: "unit sfarti, a curve divided: for x y w the sums of neighbours, of those, and again \
+              (6 additions, W + 13 to W + 15 bits), and the 5 new points projected as the 16 \
+              of the patch were, 12 bits wider",
+    times: |f| if f.divides() { f.get(C::LevelSplits) } else { 0 },
+    once: |f| {
+        let sums = Ops::default()
+            .adds(3, f.w + GUARD + 1)
+            .adds(2, f.w + GUARD + 2)
+            .adds(1, f.w + GUARD + 3);
+        Ops::default().with(3, sums).with(5, point(f.w + GUARD))
+    },
+};
+
+/// What eight curves need for each of their pieces.
+pub(super) const FLAT: Piece = Piece {
+    block: Block::Level,
+    meaning: "unit sfarti, a piece of eight curves looked at, 8 a patch and 2 a division: three \
+              differences from its end; the greater of two areas over pixels, squared, against the \
+              chord's squared length; and the greater squared distance against pixels squared, for \
+              a chord that is a point",
+    times: |f| 8 * f.eight_curves() + if f.divides() { 2 * f.get(C::LevelSplits) } else { 0 },
+    once: |_| flat(),
+};
+
 fn project(f: Formats) -> Ops {
-    let pixel = Ops::default().muls(1, f.w, 15).with(1, quotient(f.w + 29, f.w, PIXEL));
-    let point = Ops::default().compares(2, f.w).with(1, reciprocal(f.w)).with(2, pixel);
-    Ops::default().with(16, point)
+    Ops::default().with(16, point(f.w))
+}
+
+/// A point whose coordinates have `w` bits.
+fn point(w: u64) -> Ops {
+    let pixel = Ops::default().muls(1, w, 15).with(1, quotient(w + 29, w, PIXEL));
+    Ops::default().compares(2, w).with(1, reciprocal(w)).with(2, pixel)
+}
+
+/// `flat` of `level/subdivide.rs`; 1 / pixels and pixels squared are formed once for a state.
+fn flat() -> Ops {
+    let difference = PIXEL + 1;
+    let product = 2 * difference; // of two differences; a sum of two has a bit more
+    let square = Ops::default().muls(2, difference, difference).adds(1, product + 1);
+    Ops::default()
+        .adds(3 * 2, difference)
+        .with(2, square) // areas: a cross product is as dear as a square
+        .compares(1, product + 1)
+        .with(1, quotient(product + 1, TOLERANCE, DIFFERENCE))
+        .muls(1, DIFFERENCE, DIFFERENCE)
+        .with(3, square) // of the chord, and of both distances
+        .compares(3, product + 1) // flat; the greater distance; within pixels
 }
 
 fn flatness() -> Ops {

@@ -184,7 +184,8 @@ pub(in crate::unit) struct Level(pub(super) Steady);
 impl<T: Topology> Step<T> for Level {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
-        one(token, self.0.cost(work.levels), out)
+        let cost = if work.levels > 0 { self.0.cost(work.levels) } else { self.0.idle() };
+        one(token, cost, out)
     }
 }
 
@@ -197,7 +198,8 @@ impl<T: Topology> Step<T> for Place {
         let Token::Patch(work) = token else { misled(token) };
         let divides = work.reciprocals > 0;
         let cost = if divides { self.0.cost(work.reciprocals.into()) } else { self.0.idle() };
-        one(token, cost, out)
+        // Lists of a patch that is measured are kept here, for its second pass.
+        if work.fate == Fate::Measured { cost } else { one(token, cost, out) }
     }
 }
 
