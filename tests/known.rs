@@ -136,6 +136,17 @@ fn mesh_text(rows: u32, columns: u32, resident: bool, instances: u32) -> String 
     )
 }
 
+/// Vertices of two-vertex edges that a mesh holds at most: a row's upper ones and the one beside.
+/// Of two rows the second leaves none above, so the one beside it is never held with a full row.
+fn held(rows: u64, columns: u64) -> u64 {
+    match (rows, columns) {
+        (1, 1) => 0,
+        (1, _) => 2,
+        (2, _) | (_, 1) => 2 * columns,
+        _ => 2 * columns + 2,
+    }
+}
+
 #[test]
 fn a_mesh_brings_its_points_once_an_instance() {
     let mut compared = 0;
@@ -157,6 +168,9 @@ fn a_mesh_brings_its_points_once_an_instance() {
             (C::PortPoints, points * k),
             (C::AssembleReused, (16 * m * n - points) * k),
             (C::AssembleEdgePeak, if m > 1 { 3 * n + 1 } else { 0 } + if n > 1 { 4 } else { 0 }),
+            // Level 1: an edge has two vertices.
+            (C::EvaluateShared, (2 * m * (n - 1) + 2 * (m - 1) * n - (m - 1) * (n - 1)) * k),
+            (C::EvaluateHeldPeak, held(m, n)),
             (C::LevelPatches, m * n * k), // a plane that faces the viewer: nothing is culled
             (C::StitchTriangles, 2 * m * n * k),
         ];
@@ -251,6 +265,7 @@ fn at_most(c: &Counters, config: &Config) {
         (get(C::PlaceReciprocals), 6 * get(C::LevelPatches)),
         (get(C::EvaluateNormalsDegenerate), get(C::EvaluateNormals)),
         (get(C::EvaluateNormals), get(C::EvaluateVertices)),
+        (get(C::EvaluateShared), get(C::EvaluateVertices)),
         (get(C::StitchDegenerate), get(C::StitchTriangles)),
         (get(C::EmitToClipper), get(C::EmitVertices)),
         // 2V - B - 2 with at least 4 boundary vertices a patch

@@ -209,6 +209,8 @@ counters! {
     Evaluate {
         EvaluateInvocations "invocations" Count "points evaluated: boundary and interior vertices, and the control points of interior rows", "";
         EvaluateVertices "vertices" Count "distinct parameters within the patch", "= emit vertices";
+        EvaluateShared "vertices.shared" Count "vertices on edges that an earlier patch of the same primitive has evaluated too: what its edge database could spare, and does not", "<= vertices";
+        EvaluateHeldPeak "edge_vertices.peak" Entries "most vertices of a primitive's shared edges, each edge with both its ends, that later patches will meet", "";
         EvaluateStrips "strips" Count "strips of triangles handed to the stitcher: the gaps between interior rows, the half-sides, the segments across a centre", "= stitch tokens.in";
         EvaluateCurves "curves" Count "curves set up for forward differencing, a half-run each; 0 under de Casteljau", "";
         EvaluateSteps "steps" Count "forward-difference steps of a vec4, or de Casteljau curve points", "";

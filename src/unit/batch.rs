@@ -7,24 +7,24 @@
 //! all of those.
 
 mod pieces;
+mod port;
 
 use super::attributes::Corners;
-use super::chain::Work as Done;
+use super::chain::{Fate, Work as Done};
 use super::clock::{Clock, Fetch};
+use super::edges::{EdgeDatabase, Held};
 use super::frame::FrameState;
 use super::pipeline::{Front, Pipeline};
 use super::union::{Pass, Share, Shared, Site};
 use crate::config::Config;
 use crate::error::Result;
-use crate::shader::control_point;
 use crate::sink::Sink;
 use glam::Mat4;
 use rayon::prelude::*;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
-use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
 use rtl_model::patch::Patch;
-use rtl_model::port::{self, Quantised};
+use rtl_model::port::Quantised;
 use rtl_model::strip::Topology;
 use std::ops::Range;
 use std::sync::Arc;
@@ -41,12 +41,6 @@ const WAVE: usize = 64;
 
 /// Patches that a thread takes at a time.
 const GRAIN: usize = 16;
-
-/// Points in a piece of work, at most: a span may have all points of a large draw.
-const POINT_GRAIN: usize = 512;
-
-/// Pieces of points that a thread takes at a time, at least: a span may have a line of a mesh only.
-const WORK_GRAIN: usize = 4;
 
 /// A patch whose points stand in the batch.
 #[derive(Clone, Copy, Debug)]
@@ -91,6 +85,8 @@ pub(super) struct DrawState {
     pub(super) vertex_bytes: u64,
     /// The attributes of its corners.
     pub(super) attributes: Option<Arc<Corners>>,
+    /// Rows and columns of patches, where they share edges.
+    pub(super) edges: Option<(u64, u64)>,
     /// What its patches share, where their lists are unified.
     pub(super) shared: Option<Shared>,
 }
@@ -134,6 +130,7 @@ pub(super) struct Batch {
     patches: Vec<Pending>,
     draws: Vec<DrawState>,
     commands: Vec<Sent>,
+    edges: EdgeDatabase,
 }
 
 impl Batch {
@@ -220,14 +217,20 @@ impl Batch {
         clock: &mut Clock<F::Lists>,
     ) -> Result<Vec<Tally>> {
         self.quantise(config, frame, counters);
+        let mut edges = std::mem::take(&mut self.edges);
         let mut work = Work::<F> { batch: self, config, frame, measured: Vec::new() };
         work.measure(counters);
-        let mut timed = Timing { batch: self, clock, patches: 0, commands: 0 };
+        let (batch, edges_now) = (&*self, &mut edges);
+        let mut timed = Timing::new(batch, clock, edges_now);
         let tallies = match sink {
             None => work.count(counters, &mut timed),
             Some(sink) => work.stream(sink, counters, &mut timed)?,
         };
         timed.commands();
+        let Held { shared, entries } = timed.held;
+        counters.add(Counter::EvaluateShared, shared);
+        counters.add(Counter::EvaluateHeldPeak, entries);
+        self.edges = edges;
         self.commands.clear();
         self.points.clear();
         self.shaded = 0;
@@ -236,94 +239,37 @@ impl Batch {
         self.draws.clear();
         Ok(tallies)
     }
-
-    /// Control-point shader and port, on all threads.
-    fn quantise(&mut self, config: &Config, frame: &FrameState, counters: &mut Counters) {
-        let mut quantised = std::mem::take(&mut self.quantised);
-        let [points, overflows, saturated] = if config.unit.in_object_space() {
-            let mut seen = std::mem::take(&mut self.seen);
-            self.port(config, frame.view.position, true, &mut seen);
-            self.seen = seen;
-            self.port(config, frame.object, false, &mut quantised)
-        } else {
-            self.port(config, frame.view.position, true, &mut quantised)
-        };
-        self.quantised = quantised;
-        counters.add(Counter::PortPoints, points);
-        counters.add(Counter::PortOverflows, overflows);
-        counters.add(Counter::PortSaturated, saturated);
-    }
-
-    /// Quantises all points, transformed or as they are. Returns points received, coordinates that
-    /// did not fit, points with such a coordinate.
-    fn port(
-        &self,
-        config: &Config,
-        format: Format,
-        transformed: bool,
-        out: &mut Vec<Quantised>,
-    ) -> [u64; 3] {
-        out.resize(self.shaded, Quantised { point: [0; 4], overflows: 0 });
-        let mut rest = &mut out[..];
-        let mut works = Vec::with_capacity(self.spans.len());
-        for span in &self.spans {
-            let (out, after) = rest.split_at_mut(span.points.len());
-            rest = after;
-            let pieces = self.points[span.points.clone()].chunks(POINT_GRAIN);
-            for (k, (points, out)) in pieces.zip(out.chunks_mut(POINT_GRAIN)).enumerate() {
-                let repeated = span.repeated.saturating_sub(k * POINT_GRAIN).min(out.len());
-                let matrix = transformed.then_some(&span.clip_from_object);
-                works.push(PortWork { matrix, points, repeated, format, out });
-            }
-        }
-        let (rounding, overflow) = (config.position.rounding, config.position.overflow);
-        let port = |work| dispatch(rounding, overflow, work);
-        let counts = works.into_par_iter().with_min_len(WORK_GRAIN).map(port);
-        counts.reduce(|| [0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]])
-    }
-}
-
-struct PortWork<'a> {
-    /// What the control-point shader transforms with; `None` where there is none.
-    matrix: Option<&'a Mat4>,
-    points: &'a [[f32; 4]],
-    /// How many of the first points were received, and counted, before.
-    repeated: usize,
-    format: Format,
-    out: &'a mut [Quantised],
-}
-
-impl Modal for PortWork<'_> {
-    /// Points received, coordinates that did not fit, points with such a coordinate.
-    type Output = [u64; 3];
-
-    fn run<R: RoundingMode, O: OverflowMode>(self) -> [u64; 3] {
-        for (out, &point) in self.out.iter_mut().zip(self.points) {
-            let point = self.matrix.map_or(point, |m| control_point::transform(m, point));
-            *out = port::accept::<R, O>(point.map(f32::to_bits), self.format);
-        }
-        let received = &self.out[self.repeated..];
-        let overflows = received.iter().map(|q| u64::from(q.overflows)).sum();
-        let saturated = received.iter().filter(|q| q.overflows > 0).count();
-        [received.len() as u64, overflows, saturated as u64]
-    }
 }
 
 /// Puts patches and commands on the clock, in the order of the trace.
 struct Timing<'a, T: Topology> {
     batch: &'a Batch,
     clock: &'a mut Clock<T>,
+    edges: &'a mut EdgeDatabase,
+    /// What the database did for all patches, and the most that it held.
+    held: Held,
     patches: usize,
     commands: usize,
 }
 
-impl<T: Topology> Timing<'_, T> {
+impl<'a, T: Topology> Timing<'a, T> {
+    fn new(batch: &'a Batch, clock: &'a mut Clock<T>, edges: &'a mut EdgeDatabase) -> Self {
+        Self { batch, clock, edges, held: Held::default(), patches: 0, commands: 0 }
+    }
+
     fn patches(&mut self, done: &[Done<T>]) {
         for &work in done {
             self.commands();
             let patch = &self.batch.patches[self.patches];
-            let vertex_bytes = self.batch.draws[patch.draw as usize].vertex_bytes;
-            self.clock.patch(patch.fetch, work, vertex_bytes);
+            let draw = &self.batch.draws[patch.draw as usize];
+            if let Some(size) = draw.edges {
+                let vertices = || [0, 1, 2, 3].map(|edge| work.lists.edge(edge) as u64 + 1);
+                let kept = (work.fate == Fate::Kept).then(vertices);
+                let held = self.edges.pass(size, patch.site, kept);
+                self.held.shared += held.shared;
+                self.held.entries = self.held.entries.max(held.entries);
+            }
+            self.clock.patch(patch.fetch, work, draw.vertex_bytes);
             self.patches += 1;
         }
     }

@@ -107,6 +107,7 @@ impl<F: Front> Run<'_, F> {
             to_world: frame.to_world,
             vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
             attributes: source.attributes.clone(),
+            edges: draw.primitive.shares_edges().then(|| draw.primitive.size()),
             shared: None,
         };
         // What the first of two passes takes.

@@ -13,6 +13,7 @@ mod batch;
 mod chain;
 mod clock;
 mod draw;
+mod edges;
 mod frame;
 mod hybrid;
 mod moreton;
