@@ -13,6 +13,7 @@ pub mod layers;
 pub mod link;
 pub mod preset;
 pub mod print;
+mod union;
 
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,7 @@ pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::level::Termination;
 pub use rtl_model::number::{Overflow, Rounding};
 pub use rtl_model::time::{Frames, LaneOrder};
+pub use union::Union;
 
 /// Widest position format.
 pub const WIDTH_MAX: u32 = 48;
@@ -210,19 +212,6 @@ pub struct Level {
     pub termination: Termination,
     /// Whose lists are unified (unit `sfarti`).
     pub union: Union,
-}
-
-/// Which patches use one union of their lists.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Union {
-    /// None: each edge has its own list, which zippers join to the interior. Watertight across
-    /// draws.
-    #[default]
-    Off,
-    /// Those of a strip, fan or mesh that share edges: a list for each column and each row. Takes
-    /// two passes; watertight within a primitive only.
-    Primitive,
 }
 
 /// The criterion's name; its number stands beside it.
