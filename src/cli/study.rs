@@ -1,5 +1,7 @@
 //! `study`: a question about a design and how thoroughly to look in, its table out.
 
+mod motion;
+
 use super::print;
 use clap::Subcommand;
 use clap::builder::RangedU64ValueParser;
@@ -11,7 +13,7 @@ use tessim::study::backface::{self, CSV_HEADER, Options};
 /// Carry out a study and print its table
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  tessim study backface\n  \
-                        tessim study backface --views 1000 --random 100000 --out result")]
+                        tessim study motion --scene zoom --out result")]
 pub(crate) struct Args {
     #[command(subcommand)]
     study: Study,
@@ -21,6 +23,7 @@ pub(crate) struct Args {
 #[command(disable_help_subcommand = true)]
 enum Study {
     Backface(Backface),
+    Motion(motion::Args),
 }
 
 /// Back-face tests: what they drop, what they must not have dropped, and their operations
@@ -49,15 +52,24 @@ fn number() -> RangedU64ValueParser<u32> {
 }
 
 pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
-    let Study::Backface(args) = &args.study;
-    let name = "backface.csv";
-    let folder = args.out.as_deref();
-    let folder = folder.map(|out| ResultFolder::of_study(out, name, &CSV_HEADER)).transpose()?;
-    let options = Options { views: args.views as usize, random: args.random as usize };
-    let rows = backface::run(options)?;
-    if let Some(folder) = folder {
-        folder.write(name, backface::csv(&rows).as_bytes())?;
-        folder.commit()?;
+    match &args.study {
+        Study::Backface(args) => args.run(quiet),
+        Study::Motion(args) => motion::run(args, quiet),
     }
-    if quiet { Ok(()) } else { print::print(&backface::text(&rows)) }
+}
+
+impl Backface {
+    fn run(&self, quiet: bool) -> Result<()> {
+        let name = "backface.csv";
+        let folder = self.out.as_deref();
+        let folder =
+            folder.map(|out| ResultFolder::of_study(out, name, &CSV_HEADER)).transpose()?;
+        let options = Options { views: self.views as usize, random: self.random as usize };
+        let rows = backface::run(options)?;
+        if let Some(folder) = folder {
+            folder.write(name, backface::csv(&rows).as_bytes())?;
+            folder.commit()?;
+        }
+        if quiet { Ok(()) } else { print::print(&backface::text(&rows)) }
+    }
 }

@@ -5,4 +5,7 @@
 //! any number of threads gives the same bytes.
 
 pub mod backface;
+mod markdown;
+pub mod motion;
 mod random;
+pub mod walk;

@@ -76,7 +76,7 @@ fn sweep(profile: &[Plane; 4], turn: &[Plane; 4]) -> impl Iterator<Item = [f32; 
 }
 
 /// Control points, 16 a patch: the torus, then the sphere. They face outward.
-fn points() -> Vec<[f32; 4]> {
+pub(super) fn points() -> Vec<[f32; 4]> {
     let mut points = Vec::new();
     for tube in 0..4 {
         let circle = arc(tube);
