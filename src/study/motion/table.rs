@@ -58,7 +58,7 @@ const COLUMNS: [&str; 14] = [
     "f64",
 ];
 
-/// A table for each film, frame by frame, or every so many frames where there are many; and one of
+/// A table for each film, frame by frame, or one in so many where there are many; and one of
 /// the totals.
 #[must_use]
 pub fn text(films: &[Film]) -> String {
@@ -70,7 +70,7 @@ pub fn text(films: &[Film]) -> String {
         let mut cells: Vec<_> = shown.map(|(n, frame)| row(n.to_string(), frame)).collect();
         cells.push(row("total".to_owned(), &film.totals()));
         let frames = film.frames.len();
-        let every = if step > 1 { format!(", every {step}th of them here") } else { String::new() };
+        let every = if step > 1 { format!(", one in {step} of them here") } else { String::new() };
         writeln!(text, "{}: {frames} frames{every}\n", film.name)
             .expect("a String takes everything");
         text += &markdown::table(&COLUMNS, 1, &cells);

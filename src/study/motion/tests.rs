@@ -114,7 +114,7 @@ fn tables_have_a_row_a_frame_or_every_so_many_and_totals() {
     assert_eq!(one.lines().filter(|line| line.starts_with('|')).count(), 2 + 40 + 1);
     assert!(one.contains("| total |     120 |"), "{one}");
     let two = text(&[film(41), film(1)]);
-    assert!(two.contains("41 frames, every 3th of them here"), "{two}");
+    assert!(two.contains("41 frames, one in 3 of them here"), "{two}");
     assert_eq!(two.lines().filter(|line| line.starts_with('|')).count(), 17 + 4 + 4);
     let csv = csv(&[film(2)]);
     assert_eq!(csv.lines().nth(2), Some("film_ 2,1,3,2,0,0,0,0,0,0,0,0,0,0,0"));
