@@ -10,7 +10,6 @@ use rtl_model::level;
 use rtl_model::patch::Level;
 use run::Keep;
 use tessim::config::{Config, Engine};
-use tessim::golden::backface::faces_viewer;
 use tessim::golden::clip;
 use tessim::study::motion::{self, Film};
 use tessim::study::walk::{Drawn, Walk};
@@ -115,34 +114,32 @@ fn turning_takes_every_patch_from_front_to_back_but_those_that_bend_round() {
     assert!(film.frames.iter().all(|frame| frame.clipped == 0), "it is seen whole");
 }
 
-/// The wall, patches 16 to 23, has its front inside; the shell round it, 24 to 31, outside. The
-/// method is conservative, so it may keep some of the shell, none of which shows a front.
+/// The outer half of the tube lies on the torus's convex hull: whoever is within that sees its
+/// inside alone. Of the draw as authored these are patches 0 to 3 and 12 to 15; the other draw has
+/// them from 16 on.
 #[test]
-fn inside_a_closed_surface_its_wall_is_kept_and_the_shell_round_it_removed() {
-    let mut kept_of_wall = [0; 8];
-    let (mut culled, mut missed) = (0, 0);
-    for drawn in patches(Kind::Inside).iter().flat_map(|frame| &frame[16..]) {
+fn inside_a_closed_surface_its_wall_is_kept_where_it_is_reversed_and_else_removed() {
+    let (mut wall, mut removed, mut either) = ([0; 8], 0, [0; 2]);
+    for drawn in patches(Kind::Inside).iter().flatten() {
         let Drawn { patch, frame, .. } = drawn;
         if clip::outside(&patch.points, frame.view.depth) {
             continue;
         }
         let (verdict, _) = accept(patch, &frame.view, Method::TangentPlane);
-        let front = if patch.reversed { -frame.view.facing } else { frame.view.facing };
-        let rows = patch.points.map(|[x, y, _, w]| [x as f64, y as f64, w as f64]);
-        let wall = patch.id < 24;
-        assert_eq!(faces_viewer(&rows, front as f64), wall, "{}", patch.id);
-        match (wall, verdict) {
-            (true, _) => {
-                assert_eq!(verdict, Verdict::Kept, "{}", patch.id);
-                kept_of_wall[patch.id as usize - 16] += 1;
-            }
-            (false, Verdict::Culled) => culled += 1,
-            (false, _) => missed += 1,
+        let own = patch.id % 16;
+        if (4..12).contains(&own) {
+            either[usize::from(verdict == Verdict::Culled)] += 1;
+        } else if patch.reversed {
+            assert_eq!(verdict, Verdict::Kept, "{}", patch.id);
+            wall[own as usize % 8] += 1;
+        } else {
+            assert_eq!(verdict, Verdict::Culled, "{}", patch.id);
+            removed += 1;
         }
     }
-    println!("of the wall kept: {kept_of_wall:?}; of the shell culled {culled}, kept {missed}");
-    assert!(culled > 40 && missed * 10 < culled, "{culled} {missed}");
-    assert!(kept_of_wall.iter().all(|&n| (1..24).contains(&n)), "{kept_of_wall:?}");
+    println!("frames in which each of the wall is kept: {wall:?}; removed {removed}; {either:?}");
+    assert!(wall.iter().all(|&n| (1..24).contains(&n)), "{wall:?}");
+    assert_eq!(removed, wall.iter().sum::<i32>(), "the same places, drawn twice");
     for frame in film(Kind::Inside).frames {
         assert!(frame.clipped > 0 && frame.culled > 0 && frame.tessellated > 0, "{frame:?}");
     }
@@ -177,7 +174,7 @@ fn zoom_goes_from_level_1_everywhere_to_the_greatest() {
     assert!(greatest > 6, "those of more than a patch");
     let sizes = [0, 23].map(|n: usize| height(&frames[n]));
     println!("pixels high: {sizes:?}");
-    assert!((0.5..1.0).contains(&sizes[0]) && sizes[1] > 1024.0, "{sizes:?}");
+    assert!((0.4..1.0).contains(&sizes[0]) && sizes[1] > 1024.0, "{sizes:?}");
 }
 
 /// How many pixels high what is before the near plane is.

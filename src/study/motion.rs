@@ -1,6 +1,6 @@
 //! Motion: what is clipped, what is back-facing and what is tessellated from frame to frame, and
-//! whether the golden models decide the same (Sfarti et al. 2005, section 3, whose authors "produced
-//! five different animations in order to prove" their culling).
+//! whether the golden models decide the same (Sfarti et al. 2005, section 3: "We produced five
+//! different animations in order to prove" the two tests).
 //!
 //! The commands of a trace come in; they go through the configured unit as in a run, and patch by
 //! patch through the golden models of clip and backface. Out come counts for each frame. A

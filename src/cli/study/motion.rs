@@ -14,9 +14,10 @@ use tessim::trace::scene::motion::{Kind, Motion};
 /// Clipping and culling from frame to frame, and whether the golden models decide the same
 ///
 /// Takes a trace, or scenes by name, through the unit and through its golden models. Prints
-/// Markdown; with --out writes motion.csv. Ends with 1 where the two disagree about a patch. Columns:
-/// to backface, patches that were not clipped; no front, of these, those of which no sample faces the
-/// viewer; false, patches that were removed though a sample is in sight, quantised and in f64.
+/// Markdown; with --out writes motion.csv. Ends with 1 where the two disagree about a patch.
+/// Columns: to backface, patches that were not clipped; no front, of these, those of which no
+/// sample faces the viewer; false, patches that were removed though a sample is in sight, quantised
+/// and in f64.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  tessim study motion --scene zoom --frames 40\n  \
                         tessim study motion traces/zoom.jsonl --set backface.method=normal_cone \

@@ -23,9 +23,8 @@ pub enum Kind {
     Crossing,
     /// A teapot turns once about a slanting axis before a camera that sees all of it.
     Turning,
-    /// A camera looks round inside a sphere, between it and the eye a torus about the eye. The
-    /// sphere is drawn twice: the wall with its front inside, and round it another as authored,
-    /// whose front is outside.
+    /// A camera looks round inside the tube of a torus, which is drawn as authored, its front
+    /// outside, and reversed.
     Inside,
     /// A camera flies through 48 teapots.
     Flythrough,
