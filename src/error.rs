@@ -33,6 +33,9 @@ pub enum Error {
     /// A configuration that cannot be used, or wrong usage.
     #[error("{0}")]
     Usage(String),
+    /// A check failed: the tool disagrees with itself.
+    #[error("{0}")]
+    Check(String),
     /// The system failed: a file could not be opened, read or written.
     #[error("{}: {source}", path.display())]
     System {
@@ -47,10 +50,11 @@ pub enum Error {
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 impl Error {
-    /// The process exit code: 2 bad input or usage, 3 the system failed.
+    /// The process exit code: 1 a check failed, 2 bad input or usage, 3 the system failed.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Check(_) => 1,
             Self::Input { .. } | Self::Usage(_) => 2,
             Self::System { .. } => 3,
         }

@@ -410,3 +410,33 @@ fn a_reader_that_leaves_early_is_no_failure() {
     assert!(output.status.success(), "{output:?}");
     assert!(output.stderr.is_empty(), "{output:?}");
 }
+
+#[test]
+fn a_study_of_motion_takes_scenes_and_traces_and_says_what_disagrees() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let study = |arguments: &[&str]| {
+        let mut command = tessim();
+        command.args(["study", "motion", "--set", "level.max_level=2"]).args(arguments);
+        command.assert().success()
+    };
+    let table = study(&["--scene", "zoom", "--scene", "inside", "--frames", "3"]);
+    table
+        .stdout(predicate::str::starts_with("zoom: 3 frames\n"))
+        .stdout(predicate::str::contains("| total |      96 |"))
+        .stdout(predicate::str::contains("unit and golden model disagree about 0\n"));
+    for _ in 0..2 {
+        let name = trace("indexed.jsonl");
+        study(&[name.to_str().unwrap(), "--out", out.to_str().unwrap()]); // it replaces its like
+        let csv = fs::read_to_string(out.join("motion.csv")).unwrap();
+        assert!(csv.starts_with("trace,frame,patches,clipped,") && csv.lines().count() == 2);
+        assert!(csv.contains("indexed.jsonl,0,96,"));
+    }
+    let moved = fs::read(trace("zoom.jsonl")).unwrap();
+    let scene = tessim().args(["scene", "zoom", "--frames", "8"]).assert().success();
+    scene.stdout(predicate::eq(moved));
+    let refused = |arguments: &[&str]| fails(2, &[&["study", "motion"], arguments].concat());
+    assert!(refused(&["--scene", "moon"]).contains("flythrough"));
+    assert!(refused(&["a.jsonl", "--scene", "zoom"]).contains("cannot be used with"));
+    assert!(refused(&["--unit", "moreton"]).contains("unit moreton culls nothing"));
+}

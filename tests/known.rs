@@ -25,8 +25,8 @@ use tessim::sink::NoMesh;
 use tessim::trace::read::Reader;
 use tessim::unit::simulate;
 
-const SHIPPED: [&str; 8] =
-    ["fan", "indexed", "mesh", "rational", "strip", "teacup", "teapot", "teaspoon"];
+const SHIPPED: [&str; 9] =
+    ["fan", "indexed", "mesh", "rational", "strip", "teacup", "teapot", "teaspoon", "zoom"];
 
 fn run_text(text: &str, config: &Config) -> Result<Report> {
     let reader = Reader::new(BufReader::new(text.as_bytes()), "text", "traces");

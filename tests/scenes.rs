@@ -11,6 +11,7 @@ use tessim::trace::read::Reader;
 use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::mesh::Mesh;
 use tessim::trace::scene::model::Model;
+use tessim::trace::scene::motion::{Kind as Moving, Motion};
 use tessim::trace::scene::newell::Newell;
 use tessim::trace::scene::primitives::{Kind, Primitives};
 use tessim::trace::scene::rational::Rational;
@@ -31,6 +32,13 @@ fn model(model: Newell) -> Vec<u8> {
 fn primitives(kind: Kind) -> Vec<u8> {
     let mut text = Vec::new();
     let scene = Primitives { kind, tessellation: Tessellation::default() };
+    scene.write(&mut text).expect("memory takes all");
+    text
+}
+
+fn motion(kind: Moving, frames: u32) -> Vec<u8> {
+    let mut text = Vec::new();
+    let scene = Motion { kind, frames, tessellation: Tessellation::default() };
     scene.write(&mut text).expect("memory takes all");
     text
 }
@@ -67,6 +75,7 @@ fn shipped_traces_are_what_the_scenes_write() {
         ("strip.jsonl", primitives(Kind::Ribbon), (1, 12)),
         ("fan.jsonl", primitives(Kind::Domes), (1, 16)),
         ("indexed.jsonl", primitives(Kind::Rings), (1, 96)),
+        ("zoom.jsonl", motion(Moving::Zoom, 8), (8, 8 * 32)),
     ];
     for (name, text, counts) in expected {
         if std::env::var_os("UPDATE_EXPECT").is_some() {
@@ -89,7 +98,7 @@ fn every_shipped_trace_has_its_line_in_the_readme() {
             checked += 1;
         }
     }
-    assert!(checked >= 5, "{checked}");
+    assert!(checked >= 9, "{checked}");
 }
 
 #[test]
@@ -98,6 +107,20 @@ fn grids_of_any_size_are_whole() {
         let mut text = Vec::new();
         Grid { rows, columns, tessellation: Tessellation::default() }.write(&mut text).unwrap();
         assert_eq!(totals(&text), (1, u64::from(rows * columns)));
+    }
+}
+
+#[test]
+fn films_of_any_length_are_whole() {
+    for kind in Moving::ALL {
+        let patches = if kind == Moving::Flythrough { 48 * 32 } else { 32 };
+        for frames in [1, 2, 7, 24] {
+            let text = motion(kind, frames);
+            let all = u64::from(frames);
+            assert_eq!(totals(&text), (all, all * patches), "{}", kind.name());
+            let points = text.split(|&b| b == b'\n').filter(|l| l.starts_with(b"{\"points\""));
+            assert_eq!(points.count(), 1, "points cross the link once");
+        }
     }
 }
 

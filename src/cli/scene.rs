@@ -13,6 +13,7 @@ use tessim::trace::command::Tessellation;
 use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::mesh::Mesh;
 use tessim::trace::scene::model::Model;
+use tessim::trace::scene::motion::{Kind as Moving, Motion};
 use tessim::trace::scene::newell::Newell;
 use tessim::trace::scene::primitives::{Kind, Primitives};
 use tessim::trace::scene::rational::Rational;
@@ -53,6 +54,16 @@ enum Scene {
     Domes(Levels),
     /// Three rings: an indexed mesh of 32 patches with attributes, resident, in three instances
     Rings(Levels),
+    /// Motion: a teapot crosses each plane of the frustum, in and out
+    Crossing(Film),
+    /// Motion: a teapot turns once
+    Turning(Film),
+    /// Motion: a look round inside a closed surface
+    Inside(Film),
+    /// Motion: a flight through 48 teapots
+    Flythrough(Film),
+    /// Motion: a teapot from one pixel to more than the screen
+    Zoom(Film),
     /// A bumpy surface of as many patches as you like
     Grid {
         /// Patches along y
@@ -85,6 +96,16 @@ fn side() -> RangedI64ValueParser<u32> {
 /// Cups and frames: far more than anybody waits for.
 fn number() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=100_000)
+}
+
+/// A scene that moves.
+#[derive(Debug, clap::Args)]
+struct Film {
+    /// Frames
+    #[arg(long, default_value_t = Motion::FRAMES, value_parser = number())]
+    frames: u32,
+    #[command(flatten)]
+    levels: Levels,
 }
 
 /// The tessellation command of a scene.
@@ -168,6 +189,11 @@ impl Scene {
             let scene = Primitives { kind, tessellation: levels.tessellation()? };
             Ok(Box::new(move |mut out| scene.write(&mut out)))
         };
+        let motion = |kind, film: &Film| -> Result<Writer> {
+            let tessellation = film.levels.tessellation()?;
+            let motion = Motion { kind, frames: film.frames, tessellation };
+            Ok(Box::new(move |mut out| motion.write(&mut out)))
+        };
         match self {
             Self::Teapot(levels) => model(Newell::Teapot, levels),
             Self::Teapot28(levels) => model(Newell::Teapot28, levels),
@@ -181,6 +207,11 @@ impl Scene {
             Self::Ribbon(levels) => primitives(Kind::Ribbon, levels),
             Self::Domes(levels) => primitives(Kind::Domes, levels),
             Self::Rings(levels) => primitives(Kind::Rings, levels),
+            Self::Crossing(film) => motion(Moving::Crossing, film),
+            Self::Turning(film) => motion(Moving::Turning, film),
+            Self::Inside(film) => motion(Moving::Inside, film),
+            Self::Flythrough(film) => motion(Moving::Flythrough, film),
+            Self::Zoom(film) => motion(Moving::Zoom, film),
             &Self::Grid { rows, columns, ref levels } => {
                 let grid = Grid { rows, columns, tessellation: levels.tessellation()? };
                 Ok(Box::new(move |mut out| grid.write(&mut out)))

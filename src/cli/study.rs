@@ -1,5 +1,7 @@
 //! `study`: a question about a design and how thoroughly to look in, its table out.
 
+mod motion;
+
 use super::print;
 use clap::Subcommand;
 use clap::builder::RangedU64ValueParser;
@@ -22,6 +24,7 @@ pub(crate) struct Args {
 enum Study {
     Backface(Backface),
     Bandwidth(Bandwidth),
+    Motion(motion::Args),
 }
 
 /// Back-face tests: what they drop, what they must not have dropped, and their operations
@@ -95,6 +98,7 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     match &args.study {
         Study::Backface(args) => of_backface(args, quiet),
         Study::Bandwidth(args) => of_bandwidth(args, quiet),
+        Study::Motion(args) => motion::run(args, quiet),
     }
 }
 

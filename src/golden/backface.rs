@@ -17,7 +17,7 @@ use rtl_model::patch::{Patch, Point, View};
 
 pub use cone::{ROUNDING, margin};
 pub use hull::holds_viewer;
-pub use sample::{SAMPLES, faces_viewer};
+pub use sample::{SAMPLES, faces_viewer, in_sight};
 
 /// A polynomial of degree up to 8 in v (rows) and u (columns), power basis.
 type Polynomial = [[I256; 9]; 9];

@@ -20,15 +20,15 @@ use crate::config::{BackfaceMethod as Method, Config};
 use crate::error::Result;
 use crate::golden::backface::faces_viewer;
 use crate::shader::control_point;
+use crate::study::walk::Port;
 use crate::unit::FrameState;
 use crate::unit::arithmetic;
 use glam::Mat4;
 use rayon::prelude::*;
 use rtl_model::backface::{Verdict, accept};
 use rtl_model::counter::standard::Ops;
-use rtl_model::number::{Modal, OverflowMode, RoundingMode, dispatch};
+use rtl_model::number::dispatch;
 use rtl_model::patch::{Patch, View};
-use rtl_model::port;
 use scene::Seen;
 
 pub use scene::{Place, Source};
@@ -193,23 +193,12 @@ impl Fronts {
     }
 }
 
-struct Port<'a>(&'a [[f32; 4]; 16], &'a View);
-
-impl Modal for Port<'_> {
-    type Output = ([[i64; 4]; 16], bool);
-
-    fn run<R: RoundingMode, O: OverflowMode>(self) -> Self::Output {
-        let quantised = self.0.map(|p| port::accept::<R, O>(p.map(f32::to_bits), self.1.position));
-        (quantised.map(|q| q.point), quantised.iter().any(|q| q.overflows > 0))
-    }
-}
-
 /// The patch behind the port, and its control points before it.
 fn quantised(seen: &Seen<'_>, frame: &FrameState, config: &Config) -> (Patch, [[f32; 4]; 16]) {
     let matrix: &Mat4 = &frame.clip_from_world;
     let single = seen.points.map(|p| control_point::transform(matrix, p));
     let (rounding, overflow) = (config.position.rounding, config.position.overflow);
-    let (points, saturated) = dispatch(rounding, overflow, Port(&single, &frame.view));
+    let (points, saturated) = dispatch(rounding, overflow, Port(&single, frame.view.position));
     let patch = Patch { id: 0, points, saturated, cull: true, reversed: seen.reversed };
     (patch, single)
 }

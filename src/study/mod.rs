@@ -7,4 +7,7 @@
 pub mod backface;
 pub mod bandwidth;
 pub mod compare;
+mod markdown;
+pub mod motion;
 mod random;
+pub mod walk;

@@ -260,7 +260,8 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
     let config = Config::default();
     let mut seen = 0;
     walk::walk(name, &config, |draw, drawn| {
-        if drawn.patch.id == 0 {
+        // Blocks of an indexed mesh are compared on samples of their own.
+        if drawn.patch.id == 0 && draw.indices.is_none() {
             blocks::assemble(ledger, draw.primitive);
         }
         let (patch, view) = (&drawn.patch, &drawn.frame.view);
@@ -298,7 +299,7 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
         seen += 1;
     });
     println!("{name}: {seen} patches");
-    assert!(seen >= 16, "{name}: {seen} patches");
+    assert!(seen >= 12, "{name}: {seen} patches");
 }
 
 /// The shader's f32 against f64, relative to what each coordinate is the sum of.

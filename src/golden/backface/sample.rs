@@ -2,6 +2,8 @@
 //! against.
 
 use crate::golden::evaluate::{basis, basis_derivative};
+use crate::golden::{Real, clip};
+use rtl_model::patch::Depth;
 
 /// Samples along each direction.
 pub const SAMPLES: usize = 65;
@@ -14,27 +16,48 @@ type Row = [f64; 3];
 /// cannot tell from edge-on does not.
 #[must_use]
 pub fn faces_viewer(points: &[Row; 16], front: f64) -> bool {
-    let at = |k: usize| k as f64 / (SAMPLES - 1) as f64;
-    let weights: [_; SAMPLES] = std::array::from_fn(|k| (basis(at(k)), basis_derivative(at(k))));
-    let largest = points.iter().flatten().fold(0f64, |m, c| m.max(c.abs()));
-    // Coordinates are wrong by a few ulps of the largest, derivatives by six times that.
-    let noise = 1e-12 * largest * largest * largest;
-    weights.iter().any(|(value, slope)| {
-        let along = [0, 1, 2, 3].map(|j| sum(column(points, j), value));
-        let across = [0, 1, 2, 3].map(|j| sum(column(points, j), slope));
-        weights.iter().any(|(value, slope)| {
-            let (s, su, sv) = (sum(along, value), sum(along, slope), sum(across, value));
-            volume(s, su, sv) * front > noise
-        })
+    let noise = noise(points);
+    any(points, |s, su, sv| volume(s, su, sv) * front > noise)
+}
+
+/// Whether a surface shows itself in one of these points: inside the visible volume and, where
+/// there is a `front`, facing the viewer as in [`faces_viewer`].
+#[must_use]
+pub fn in_sight(points: &[Real; 16], front: Option<f64>, depth: Depth) -> bool {
+    let row = |[x, y, _, w]: Real| [x, y, w];
+    let noise = noise(&points.map(row));
+    any(points, |s, su, sv| {
+        let faces = |front| volume(row(s), row(su), row(sv)) * front > noise;
+        clip::inside(s, depth) && front.is_none_or(faces)
     })
 }
 
-fn column(points: &[Row; 16], j: usize) -> [Row; 4] {
-    [points[j], points[j + 4], points[j + 8], points[j + 12]]
+/// What a determinant may be wrong by: coordinates are, by a few ulps of the largest, and
+/// derivatives by six times that.
+fn noise(points: &[Row; 16]) -> f64 {
+    let largest = points.iter().flatten().fold(0f64, |m, c| m.max(c.abs()));
+    1e-12 * largest * largest * largest
 }
 
-fn sum(p: [Row; 4], w: &[f64; 4]) -> Row {
-    [0, 1, 2].map(|k| p[0][k] * w[0] + p[1][k] * w[1] + p[2][k] * w[2] + p[3][k] * w[3])
+/// Whether S, Su, Sv of one of the samples are such.
+fn any<const N: usize>(
+    points: &[[f64; N]; 16],
+    such: impl Fn([f64; N], [f64; N], [f64; N]) -> bool,
+) -> bool {
+    let at = |k: usize| k as f64 / (SAMPLES - 1) as f64;
+    let weights: [_; SAMPLES] = std::array::from_fn(|k| (basis(at(k)), basis_derivative(at(k))));
+    let column = |j: usize| [points[j], points[j + 4], points[j + 8], points[j + 12]];
+    weights.iter().any(|(value, slope)| {
+        let along = [0, 1, 2, 3].map(|j| sum(column(j), value));
+        let across = [0, 1, 2, 3].map(|j| sum(column(j), slope));
+        weights
+            .iter()
+            .any(|(value, slope)| such(sum(along, value), sum(along, slope), sum(across, value)))
+    })
+}
+
+fn sum<const N: usize>(p: [[f64; N]; 4], w: &[f64; 4]) -> [f64; N] {
+    std::array::from_fn(|k| p[0][k] * w[0] + p[1][k] * w[1] + p[2][k] * w[2] + p[3][k] * w[3])
 }
 
 fn volume(a: Row, b: Row, c: Row) -> f64 {
@@ -62,5 +85,19 @@ mod tests {
         assert!(faces_viewer(&steep, 1.0));
         assert!(faces_viewer(&net(-60.0), 1.0) && faces_viewer(&net(-60.0), -1.0));
         assert!(!faces_viewer(&[[0.0; 3]; 16], 1.0), "nothing has no front");
+    }
+
+    #[test]
+    fn what_is_in_sight_is_in_the_volume_and_faces_the_viewer() {
+        let net = |right: f64| -> [Real; 16] {
+            std::array::from_fn(|k| [right + (k % 4) as f64, (k / 4) as f64 - 1.5, 5.0, 10.0])
+        };
+        let seen = |net: &[Real; 16], front| in_sight(net, front, Depth::ZeroToOne);
+        assert!(seen(&net(0.0), Some(1.0)) && seen(&net(0.0), None));
+        assert!(!seen(&net(0.0), Some(-1.0)));
+        assert!(seen(&net(9.5), Some(1.0)), "a sixth of it");
+        assert!(!seen(&net(10.5), Some(1.0)) && !seen(&net(10.5), None));
+        let behind = net(0.0).map(|p| p.map(|c| -c));
+        assert!(!seen(&behind, None) && !seen(&behind, Some(-1.0)) && !seen(&behind, Some(1.0)));
     }
 }

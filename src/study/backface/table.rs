@@ -2,6 +2,7 @@
 
 use super::{Place, Row, Score};
 use crate::config::BackfaceMethod;
+use crate::study::markdown;
 use rtl_model::counter::standard::Ops;
 use std::fmt::Write;
 
@@ -57,7 +58,8 @@ pub fn text(rows: &[Row]) -> String {
             Place::Within => "a viewer within the hull of each patch",
         };
         line(&mut text, &format!("{head}\n"));
-        table(&mut text, &rows);
+        let cells: Vec<_> = rows.iter().map(|row| cells(row)).collect();
+        text.push_str(&markdown::table(&COLUMNS, 2, &cells));
         text.push('\n');
         verdict(&mut text, place, &rows);
         if place == Place::Outside {
@@ -79,27 +81,6 @@ const COLUMNS: [&str; 10] = [
     "facets looked at",
     "early out",
 ];
-
-fn table(text: &mut String, rows: &[&Row]) {
-    let cells: Vec<[String; 10]> = rows.iter().map(|row| cells(row)).collect();
-    let width = |k: usize| {
-        cells.iter().map(|row| row[k].len()).chain([COLUMNS[k].len()]).max().unwrap_or(0)
-    };
-    let mut put = |cell: &dyn Fn(usize) -> String| {
-        let columns: Vec<_> = (0..COLUMNS.len()).map(cell).collect();
-        line(text, &format!("| {} |", columns.join(" | ")));
-    };
-    // Names to the left, numbers to the right.
-    let aligned = |k: usize, cell: &str| {
-        let width = width(k);
-        if k < 2 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
-    };
-    put(&|k| aligned(k, COLUMNS[k]));
-    put(&|k| if k < 2 { "-".repeat(width(k)) } else { "-".repeat(width(k) - 1) + ":" });
-    for row in &cells {
-        put(&|k| aligned(k, &row[k]));
-    }
-}
 
 fn cells(row: &Row) -> [String; 10] {
     let Score { tested, away, away_culled, false_quantised, false_f32, facets, .. } = row.score;

@@ -6,6 +6,7 @@ pub mod camera;
 pub mod grid;
 pub mod mesh;
 pub mod model;
+pub mod motion;
 pub mod newell;
 pub mod primitives;
 pub mod rational;

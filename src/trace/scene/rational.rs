@@ -75,8 +75,9 @@ fn sweep(profile: &[Plane; 4], turn: &[Plane; 4]) -> impl Iterator<Item = [f32; 
     profile.iter().flat_map(move |p| turn.iter().map(move |t| round(point(*p, *t))))
 }
 
-/// Control points, 16 a patch: the torus, then the sphere. They face outward.
-fn points() -> Vec<[f32; 4]> {
+/// The torus's control points, 16 a patch. They face outward. The tube's quarters come from the
+/// outer upper one on, each with its four quarters of a turn.
+pub(super) fn torus() -> Vec<[f32; 4]> {
     let mut points = Vec::new();
     for tube in 0..4 {
         let circle = arc(tube);
@@ -84,6 +85,12 @@ fn points() -> Vec<[f32; 4]> {
             circle.map(|[x, z, w]| [TORUS_MAJOR * w + TORUS_MINOR * x, TORUS_MINOR * z, w]);
         (0..4).for_each(|turn| points.extend(sweep(&profile, &arc(turn))));
     }
+    points
+}
+
+/// Control points, 16 a patch: the torus, then the sphere. They face outward.
+fn points() -> Vec<[f32; 4]> {
+    let mut points = torus();
     for quarter in [3, 0] {
         let profile = arc(quarter).map(|[x, z, w]| [SPHERE * x, SPHERE * z, w]);
         (0..4).for_each(|turn| points.extend(sweep(&profile, &arc(turn))));

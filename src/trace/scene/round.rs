@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 pub(super) const TURN: usize = 8;
 
 /// The direction after `k` eighths of a turn.
-fn direction(k: usize) -> [f64; 2] {
+pub(super) fn direction(k: usize) -> [f64; 2] {
     let s = FRAC_1_SQRT_2;
     [[1.0, 0.0], [s, s], [0.0, 1.0], [-s, s], [-1.0, 0.0], [-s, -s], [0.0, -1.0], [s, -s]][k % TURN]
 }
