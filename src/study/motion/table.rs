@@ -67,8 +67,8 @@ pub fn text(films: &[Film]) -> String {
     for film in films {
         let step = film.frames.len().div_ceil(rows).max(1);
         let shown = film.frames.iter().enumerate().step_by(step);
-        let mut cells: Vec<_> = shown.map(|(n, frame)| row(n.to_string(), frame)).collect();
-        cells.push(row("total".to_owned(), &film.totals()));
+        let mut cells: Vec<_> = shown.map(|(n, frame)| row(&n.to_string(), frame)).collect();
+        cells.push(row("total", &film.totals()));
         let frames = film.frames.len();
         let every = if step > 1 { format!(", one in {step} of them here") } else { String::new() };
         writeln!(text, "{}: {frames} frames{every}\n", film.name)
@@ -77,7 +77,7 @@ pub fn text(films: &[Film]) -> String {
         text.push('\n');
     }
     if films.len() > 1 {
-        let totals: Vec<_> = films.iter().map(|f| row(f.name.clone(), &f.totals())).collect();
+        let totals: Vec<_> = films.iter().map(|f| row(&f.name, &f.totals())).collect();
         text += &markdown::table(&COLUMNS, 1, &totals);
         text.push('\n');
     }
@@ -86,11 +86,11 @@ pub fn text(films: &[Film]) -> String {
     text + &verdict(&all)
 }
 
-fn row(name: String, counts: &Counts) -> [String; 14] {
+fn row(name: &str, counts: &Counts) -> [String; 14] {
     let mut cells = counts.fields().map(|n| n.to_string()).into_iter();
     std::array::from_fn(
         |k| {
-            if k == 0 { name.clone() } else { cells.next().expect("a column each") }
+            if k == 0 { name.to_owned() } else { cells.next().expect("a column each") }
         },
     )
 }
