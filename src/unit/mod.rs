@@ -14,6 +14,7 @@ mod chain;
 mod clock;
 mod draw;
 mod edges;
+mod fetch;
 mod frame;
 mod hybrid;
 mod moreton;
