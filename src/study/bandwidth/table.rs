@@ -198,7 +198,7 @@ fn notes(text: &mut String, rows: &[Row]) {
         "levels: 1 and the even ones, which unit hybrid reaches; sfarti has powers of two only and",
         "  sends the same bytes, moreton 16 more a patch: the levels that its driver chose",
         "fan: as many patches as the mesh has; the triangles beside it are those of the mesh",
-        "indexed triangles: what unit triangles sends, each patch's vertices once; its indices have",
+        "indexed triangles: what unit triangles sends, each patch's vertices once; indices have",
         "  4 bytes where the draw has more than 65536 vertices",
         "triangle strips: both rows of vertices of each strip of each patch; closed form only",
         "vertices once: each vertex of the whole mesh, and no byte that says which triangles they",
