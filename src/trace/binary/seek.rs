@@ -1,10 +1,8 @@
 //! Seek: a binary trace and the number of a frame in; out come the header, the definitions that are
-//! live where the frame begins, the frame and its draws, and an end, as [`OnlyFrame`] makes them of
+//! live where the frame begins, the frame and its draws, and an end, as `OnlyFrame` makes them of
 //! a whole trace. Reads the trailer, the index, and the blocks where these stand.
 //!
 //! What is read is checked as ever; what is not read is not.
-//!
-//! [`OnlyFrame`]: crate::trace::only::OnlyFrame
 
 use super::block::Part;
 use super::index::{Record, Trailer};
