@@ -36,6 +36,31 @@ pub struct Frame {
     pub times: Option<FrameTimes>,
 }
 
+/// What became of the patches of a frame or a run, each counted once: where those of a primitive
+/// are measured before they are drawn, clip and backface remove a patch twice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Fates {
+    /// Wholly outside a clip plane.
+    pub clipped: u64,
+    /// Removed as back-facing.
+    pub culled: u64,
+    /// Tessellated.
+    pub tessellated: u64,
+}
+
+impl Fates {
+    /// From a unit's counters.
+    #[must_use]
+    pub fn of(counters: &Counters) -> Self {
+        let once = |all, measured| counters.get(all) - counters.get(measured);
+        Self {
+            clipped: once(Counter::ClipCulled, Counter::ClipMeasured),
+            culled: once(Counter::BackfaceCulled, Counter::BackfaceMeasured),
+            tessellated: counters.get(Counter::LevelPatches),
+        }
+    }
+}
+
 /// A number of a report: a row of `counters.csv`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {

@@ -20,7 +20,7 @@ use std::path::Path;
 use tessim::config::{BackfaceMethod, Config, Normals, Scheme, TransferMode, Union, Unit};
 use tessim::error::Result;
 use tessim::output;
-use tessim::report::Report;
+use tessim::report::{Fates, Report};
 use tessim::sink::NoMesh;
 use tessim::trace::read::Reader;
 use tessim::unit::simulate;
@@ -211,6 +211,7 @@ fn equal(c: &Counters, config: &Config) {
     // Before transform the points are as they came, and all patches are kept.
     let object = config.unit.in_object_space();
     let or_0 = |counter| if object { 0 } else { get(counter) };
+    let Fates { clipped, culled, tessellated } = Fates::of(c);
     let kept = get(C::AssemblePatches) - get(C::ClipCulled) - get(C::BackfaceCulled);
     let equal = [
         (get(C::LinkTotal), payload + get(C::LinkOverhead) + get(C::LinkRequests)),
@@ -220,6 +221,11 @@ fn equal(c: &Counters, config: &Config) {
         (get(C::TransformBytesOut), 16 * get(C::TransformInvocations)),
         (get(C::AssembleReceived) + get(C::AssembleReused), 16 * get(C::AssemblePatches)),
         (get(C::TracePatches) + get(C::AssembleMeasured), get(C::AssemblePatches)),
+        (
+            get(C::ClipMeasured) + get(C::BackfaceMeasured) + get(C::PlaceMeasured),
+            get(C::AssembleMeasured),
+        ),
+        (clipped + culled + tessellated, get(C::TracePatches)),
         (get(C::LinkFactors), if object { 16 * get(C::TracePatches) } else { 0 }),
         (get(C::ClipIn), or_0(C::AssemblePatches)),
         (get(C::ClipIn) - get(C::ClipCulled), get(C::BackfaceIn)),

@@ -184,12 +184,14 @@ counters! {
     Clip {
         ClipIn "patches.in" Count "patches tested", "= assemble patches";
         ClipCulled "patches.culled" Count "patches wholly outside one clip plane", "in - culled = backface patches.in";
+        ClipMeasured "patches.culled.measured" Count "of those, patches of a first pass, which are removed again in the second (`level.union`; unit `sfarti`)", "<= patches.culled; this + backface patches.culled.measured + place patches.measured = assemble patches.measured";
     }
     Backface {
         BackfaceIn "patches.in" Count "patches that reached back-face removal, tested or not", "= clip patches.in - patches.culled";
         BackfaceTested "patches.tested" Count "patches tested: the draw culls, the method is not off and no point was saturated", "culled <= tested <= in";
         BackfaceFacets "facets.tested" Count "facets, coefficients or directions, by method, that a test in order looks at until one keeps the patch; all of them where none does", "patches.tested <= facets.tested <= patches.tested x those of the method";
         BackfaceCulled "patches.culled" Count "patches removed as back-facing", "in - culled = level patches + place patches.measured";
+        BackfaceMeasured "patches.culled.measured" Count "of those, patches of a first pass, which are removed again in the second (`level.union`; unit `sfarti`)", "<= patches.culled";
     }
     Level {
         LevelPatches "patches" Count "patches given levels; once, where they pass twice", "= backface patches.in - patches.culled - place patches.measured";

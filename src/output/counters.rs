@@ -66,11 +66,13 @@ mod tests {
              0,hybrid,trace,patches,0,count\n\
              0,hybrid,clip,patches.in,0,count\n\
              0,hybrid,clip,patches.culled,0,count\n\
+             0,hybrid,clip,patches.culled.measured,0,count\n\
              1,hybrid,trace,frames,0,count\n\
              1,hybrid,trace,draws,0,count\n\
              1,hybrid,trace,patches,32,count\n\
              1,hybrid,clip,patches.in,0,count\n\
-             1,hybrid,clip,patches.culled,0,count\n"
+             1,hybrid,clip,patches.culled,0,count\n\
+             1,hybrid,clip,patches.culled.measured,0,count\n"
         );
     }
 

@@ -1,7 +1,7 @@
 //! `summary.json`: what a run was made of and what came of it, for programs that do not want to add
 //! up rows: totals, rates with their units, shares, and the hashes that reproduce it.
 
-use crate::report::{Frame, Report};
+use crate::report::{Fates, Frame, Report};
 use rtl_model::counter::{Block, Counter};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -141,14 +141,15 @@ fn shares(report: &Report, whole: &Frame) -> Value {
         share(format!("link.{} of link bytes", kind.name), totals.get(kind.counter), link);
     }
     let patches = totals.get(Counter::TracePatches);
+    let Fates { clipped, culled, tessellated } = Fates::of(totals);
     let share_of_patches = [
-        (Block::Clip, "patches clipped", Counter::ClipCulled),
-        (Block::Backface, "patches back-facing", Counter::BackfaceCulled),
-        (Block::Level, "patches tessellated", Counter::LevelPatches),
+        (Block::Clip, "patches clipped", clipped),
+        (Block::Backface, "patches back-facing", culled),
+        (Block::Level, "patches tessellated", tessellated),
     ];
-    for (block, name, counter) in share_of_patches {
+    for (block, name, count) in share_of_patches {
         if report.blocks.contains(&block) {
-            share(format!("{name} of patches"), totals.get(counter), patches);
+            share(format!("{name} of patches"), count, patches);
         }
     }
     let times = whole.times.iter().flat_map(|times| &times.stages);

@@ -6,7 +6,7 @@ mod time;
 pub use time::{Bound, bound};
 
 use super::summary::ratio;
-use crate::report::{Frame, Report};
+use crate::report::{Fates, Frame, Report};
 use rtl_model::counter::{Block, Counter, Counters, DECLARATIONS};
 use std::fmt::Write;
 
@@ -84,14 +84,15 @@ fn patches(table: &mut Table, report: &Report, totals: &Counters) {
     table.section("patches");
     let drawn = totals.get(Counter::TracePatches);
     table.row("drawn", drawn, None);
+    let Fates { clipped, culled, tessellated } = Fates::of(totals);
     let fates = [
-        (Block::Clip, "clipped", Counter::ClipCulled),
-        (Block::Backface, "back-facing", Counter::BackfaceCulled),
-        (Block::Level, "tessellated", Counter::LevelPatches),
+        (Block::Clip, "clipped", clipped),
+        (Block::Backface, "back-facing", culled),
+        (Block::Level, "tessellated", tessellated),
     ];
-    for (block, label, counter) in fates {
+    for (block, label, count) in fates {
         if report.blocks.contains(&block) {
-            table.row(label, totals.get(counter), Some(drawn));
+            table.row(label, count, Some(drawn));
         }
     }
 }

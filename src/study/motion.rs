@@ -15,6 +15,7 @@ mod table;
 
 use crate::config::{Config, Engine};
 use crate::error::{Error, Result};
+use crate::report::Fates;
 use crate::sink::{FrameInfo, PatchMesh, Sink};
 use crate::trace::command::Command;
 use crate::trace::read::Reader;
@@ -96,12 +97,14 @@ impl Counts {
     /// order, and what it counted.
     fn of(judged: &[Judged], kept: &[u32], counters: &Counters) -> Self {
         let get = |counter| counters.get(counter);
+        let Fates { clipped, culled, tessellated } = Fates::of(counters);
+        let patches = get(C::TracePatches);
         let mut counts = Self {
-            patches: get(C::TracePatches),
-            clipped: get(C::ClipCulled),
-            reached: get(C::BackfaceIn),
-            culled: get(C::BackfaceCulled),
-            tessellated: get(C::LevelPatches),
+            patches,
+            clipped,
+            reached: patches - clipped,
+            culled,
+            tessellated,
             triangles: get(C::StitchTriangles),
             ..Self::default()
         };

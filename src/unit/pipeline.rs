@@ -122,6 +122,9 @@ impl<'a, F: Front> Pipeline<'a, F> {
     pub(super) fn measure(&mut self, patch: &Patch, state: &State, share: Share<'_>) {
         self.work = Work::clipped();
         if F::CULLS && !self.keeps(patch) {
+            let clipped = self.work.fate == Fate::Clipped;
+            let culled = if clipped { Counter::ClipMeasured } else { Counter::BackfaceMeasured };
+            self.counters.add(culled, 1);
             return;
         }
         self.work.fate = Fate::Measured;

@@ -1,8 +1,9 @@
 //! The study on the five scenes, small; and that it would tell.
 
 use super::*;
-use crate::config::{BackfaceMethod, Unit};
+use crate::config::{BackfaceMethod, Union, Unit};
 use crate::trace::command::Tessellation;
+use crate::trace::open::Trace;
 use crate::trace::scene::motion::Kind;
 
 fn film(kind: Kind, frames: u32, config: &Config) -> Film {
@@ -54,6 +55,25 @@ fn unit_and_golden_model_agree_under_other_configurations() {
         }
     }
     assert_eq!(agreed, 5 * 2 * 2 * 4 * 32);
+}
+
+/// Where patches are measured before they are drawn, they are clipped twice and counted once.
+#[test]
+fn a_patch_that_passes_twice_is_one_patch() {
+    let mut config = Config { unit: Unit::Sfarti, ..Config::default() };
+    let film = |config: &Config| {
+        let trace = Trace::open("traces/mesh.jsonl").unwrap();
+        run("mesh", trace.map(|located| Ok(located?.command)), config).unwrap()
+    };
+    let apart = film(&config).totals();
+    config.level.union = Union::Primitive;
+    let films = [film(&config)];
+    check(&films).unwrap();
+    let unified = films[0].totals();
+    assert!(apart.clipped > 0, "a patch that is clipped in either pass");
+    let triangles = unified.triangles;
+    assert!(triangles > apart.triangles);
+    assert_eq!(unified, Counts { triangles, ..apart });
 }
 
 #[test]
