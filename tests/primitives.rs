@@ -14,10 +14,10 @@ use random::Random;
 use rtl_model::counter::{Counter as C, Counters};
 use rtl_model::patch::{Triangle, Vertex};
 use std::sync::Arc;
+use tessim::attribute::{Attribute, AttributeFormat, AttributeTable};
 use tessim::config::{Config, Unit};
 use tessim::error::Result;
 use tessim::sink::{FrameInfo, PatchMesh, Sink};
-use tessim::trace::attributes::{Attribute, AttributeFormat, AttributeTable};
 use tessim::trace::command::{
     Attributes, Command, Draw, FanEncoding, IDENTITY, Points, Primitive, Tessellation,
 };

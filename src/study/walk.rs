@@ -14,7 +14,7 @@ use crate::unit::FrameState;
 use glam::Mat4;
 use rtl_model::level::State;
 use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
-use rtl_model::patch::{Level, Patch};
+use rtl_model::patch::Patch;
 use rtl_model::port;
 use std::collections::HashMap;
 
@@ -83,7 +83,7 @@ impl<'a> Walk<'a> {
     fn draw(&mut self, draw: &Draw, each: &mut dyn FnMut(&Draw, Drawn)) -> Result<()> {
         let (frame, camera) = self.camera.expect("the reader refuses a draw before any frame");
         let source = &self.points.get(&draw.points).expect("the reader refuses unknown ids").source;
-        let state = state(&self.tessellation);
+        let state = self.tessellation.state();
         let mut own = Vec::new();
         for model in &draw.models {
             let matrix = shader::concatenate(&frame.clip_from_world, &Mat4::from_cols_array(model));
@@ -120,11 +120,6 @@ fn indices(draw: &Draw, n: u64) -> [u64; 16] {
         Some(indices) => indices.points[n as usize].map(u64::from),
         None => draw.primitive.indices(n),
     }
-}
-
-fn state(t: &Tessellation) -> State {
-    let [min, max] = [t.min_level, t.max_level].map(|fx16| Level::clamped(fx16.into()));
-    State { criterion: t.criterion, min, max }
 }
 
 /// The port over the control points of a patch.

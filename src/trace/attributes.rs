@@ -3,8 +3,7 @@
 use super::check::{NAME_MAX, is_attribute_name};
 use super::field::{Object, choice, integer32, real32};
 use super::json::{Found, Value};
-
-pub use crate::attribute::{Attribute, AttributeFormat, AttributeTable, COMPONENTS_MAX};
+use crate::attribute::{Attribute, AttributeFormat, AttributeTable, COMPONENTS_MAX};
 
 /// A command's id, table and whether it is resident.
 pub(crate) fn attributes(value: Value<'_>) -> Found<(u32, AttributeTable, bool)> {

@@ -5,11 +5,11 @@
 //! The reader of the binary form hands whole commands to [`command`]. The reader of the text form,
 //! which refuses each number where it stands in its line, asks the same predicates one by one.
 
-use super::attributes::{AttributeFormat, AttributeTable, COMPONENTS_MAX};
 use super::command::{Command, Draw, Frame, IDENTITY, Primitive, Tessellation};
 use super::indices::Indices;
 use super::points::PointSource;
 use super::state::{State, ids};
+use crate::attribute::{AttributeFormat, AttributeTable, COMPONENTS_MAX};
 use glam::DMat4;
 use rtl_model::level::Criterion;
 use std::ops::RangeInclusive;

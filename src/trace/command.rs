@@ -4,13 +4,13 @@
 //! Matrices are column-major, points column vectors, clip = projection * view * model * p. Sizes
 //! and ids are checked by the reader: a unit may rely on every invariant stated here.
 
-use rtl_model::level::Criterion;
-use rtl_model::patch::Depth;
+use rtl_model::level::{Criterion, State};
+use rtl_model::patch::{Depth, Level};
 use std::sync::Arc;
 
-use super::attributes::AttributeTable;
 use super::indices::Indices;
 use super::points::PointSource;
+use crate::attribute::AttributeTable;
 
 pub use rtl_model::assemble::{FanEncoding, Primitive};
 
@@ -100,6 +100,15 @@ pub struct Tessellation {
     pub min_level: u32,
     /// Greatest level, UQ8.16.
     pub max_level: u32,
+}
+
+impl Tessellation {
+    /// The state that the command sets.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let [min, max] = [self.min_level, self.max_level].map(|fx16| Level::clamped(fx16.into()));
+        State { criterion: self.criterion, min, max }
+    }
 }
 
 impl Default for Tessellation {

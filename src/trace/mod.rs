@@ -1,6 +1,6 @@
 //! The command stream: types, the text and the binary form, importers, scenes.
 
-pub mod attributes;
+mod attributes;
 pub mod binary;
 pub mod command;
 pub mod import;

@@ -3,11 +3,11 @@
 //! Numbers are the shortest decimals that read back as the same bits. The writer checks nothing but
 //! the length of a line: the reader does.
 
-use super::attributes::Attribute;
 use super::command::{Attributes, Command, Draw, FanEncoding, Frame, Header};
 use super::command::{Points, Primitive, Range, Tessellation};
 use super::lines::LINE_BYTES_MAX;
 use super::points::PointSource;
+use crate::attribute::Attribute;
 use rtl_model::level::Criterion;
 use rtl_model::patch::Depth;
 use std::io::{self, Write};

@@ -2,8 +2,8 @@
 //! a patch's corners and vertices in, the values of the vertices out.
 
 use super::pipeline::{Front, Pipeline};
+use crate::attribute::AttributeTable;
 use crate::config::Config;
-use crate::trace::attributes::AttributeTable;
 use crate::trace::command::Attributes;
 use rtl_model::attribute;
 use rtl_model::counter::Counter;

@@ -388,21 +388,11 @@ impl<F: Front> Work<'_, F> {
             let seen = seen.as_ref().unwrap_or(&patch);
             if pipeline.accept(&patch, seen, &draw.state, share) {
                 pieces.tally(draw.number, pipeline);
-                let attributes = draw.attributes.as_deref();
-                if let Some(attributes) = attributes {
+                if let Some(attributes) = &draw.attributes {
                     attributes.count(self.config, pipeline);
                 }
                 if keep {
-                    pieces.keep(pending, draw, pipeline);
-                    let rounding = self.config.attributes.rounding;
-                    if let Some(attributes) = attributes {
-                        attributes.interpolate(
-                            pending.corners,
-                            &pipeline.vertices,
-                            rounding,
-                            &mut pieces.attributes,
-                        );
-                    }
+                    pieces.keep(pending, draw, pipeline, self.config.attributes.rounding);
                 }
             }
             pieces.done.push(pipeline.work);

@@ -1,11 +1,12 @@
 //! The units under study: which blocks, wired how, which defaults.
 //!
 //! Commands come in, triangles stream into a sink, counters come out. `run` carries out the
-//! commands, `frame` derives what is constant over a frame, `batch` collects patches and spreads
-//! them over the threads, `pipeline` takes one patch through the blocks, of which `hybrid`,
-//! `sfarti` and `moreton` each have some of their own; `union` holds the lists that patches of a
-//! primitive share; `tokens` and `arithmetic`
-//! say from a frame's counters what flowed and what it took.
+//! commands, `frame` derives what is constant over a frame, `draw` and `fetch` say where a draw's
+//! patches get their points, `batch` collects patches and spreads them over the threads, `pipeline`
+//! takes one patch through the blocks, of which `hybrid`, `sfarti` and `moreton` each have some of
+//! their own. `union` holds the lists that patches of a primitive share, `edges` what it keeps of
+//! their edges; `chain` and `clock` put it all on the clock; `tokens` and `arithmetic` say from a
+//! frame's counters what flowed and what it took.
 
 pub mod arithmetic;
 mod attributes;

@@ -5,7 +5,7 @@ use super::batch::{self, Batch, Tally};
 use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
 use super::pipeline::Front;
-use super::{blocks, chain, state, work};
+use super::{blocks, chain, work};
 use crate::config::Config;
 use crate::error::Result;
 use crate::link::{self, Transfer};
@@ -51,7 +51,7 @@ impl<'a, F: Front> Run<'a, F> {
             sink,
             points: HashMap::new(),
             attributes: HashMap::new(),
-            state: state::of(&Tessellation::default()),
+            state: Tessellation::default().state(),
             frame: None,
             patches: 0,
             draws: Vec::new(),
@@ -94,7 +94,7 @@ impl<'a, F: Front> Run<'a, F> {
                 Ok(())
             }
             Command::Tessellation(t) => {
-                self.state = state::of(t);
+                self.state = t.state();
                 Ok(())
             }
             Command::Attributes(attributes) => {

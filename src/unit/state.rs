@@ -1,17 +1,9 @@
-//! State: the tessellation commands of a trace and the configuration in, the state that draws are
+//! State: the tessellation state of a trace and the configuration in, the state that draws are
 //! tessellated under out.
 
 use crate::config::Config;
-use crate::trace::command::Tessellation;
 use rtl_model::level;
 use rtl_model::patch::Level;
-
-/// The tessellation state that a command sets.
-pub(super) fn of(command: &Tessellation) -> level::State {
-    let level = |fx16: u32| Level::clamped(fx16.into());
-    let (min, max) = (level(command.min_level), level(command.max_level));
-    level::State { criterion: command.criterion, min, max }
-}
 
 /// The tessellation state of a draw: the trace's, with what the configuration overrides.
 ///

@@ -3,8 +3,8 @@
 
 use std::collections::HashSet;
 use std::sync::Arc;
+use tessim::attribute::{Attribute, AttributeFormat, AttributeTable};
 use tessim::error::{Error, Place};
-use tessim::trace::attributes::{Attribute, AttributeFormat, AttributeTable};
 use tessim::trace::binary::{CONTENT_BYTES_MAX, read, write};
 use tessim::trace::command::{
     Attributes, Command, Draw, Frame, Header, IDENTITY, Points, Primitive, Range, Tessellation,

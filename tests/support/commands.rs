@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rtl_model::level::Criterion;
 use rtl_model::patch::{Depth, Level};
 use std::sync::Arc;
-use tessim::trace::attributes::{Attribute, AttributeFormat, AttributeTable};
+use tessim::attribute::{Attribute, AttributeFormat, AttributeTable};
 use tessim::trace::command::{
     Attributes, Command, Draw, FanEncoding, Frame, Header, IDENTITY, Points, Primitive, Range,
     Tessellation,

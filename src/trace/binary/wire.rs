@@ -4,7 +4,7 @@
 //! behind its back: what is written is what stands here, in this order. Lists of numbers are their
 //! little-endian bytes, which a reader takes over without looking at each.
 
-use crate::trace::attributes::{Attribute, AttributeFormat, AttributeTable, COMPONENTS_MAX};
+use crate::attribute::{Attribute, AttributeFormat, AttributeTable, COMPONENTS_MAX};
 use crate::trace::command::{
     Attributes, Command, Draw, FanEncoding, Frame, Header, IDENTITY, Points, Primitive, Range,
     Tessellation,

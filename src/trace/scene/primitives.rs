@@ -5,7 +5,6 @@
 //!   with all of them.
 //! - `rings`: a torus of 8 by 4 patches as an indexed mesh, resident, in three instances.
 
-use super::super::attributes::{Attribute, AttributeFormat, AttributeTable};
 use super::super::command::{
     Attributes, Command, Draw, FanEncoding, Header, Points, Primitive, Tessellation,
 };
@@ -14,6 +13,7 @@ use super::super::points::PointSource;
 use super::super::write::Writer;
 use super::camera::Camera;
 use super::round::{TURN, eighth, quarter, single};
+use crate::attribute::{Attribute, AttributeFormat, AttributeTable};
 use std::io::{self, Write};
 use std::sync::Arc;
 

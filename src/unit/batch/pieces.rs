@@ -1,13 +1,14 @@
 //! Pieces: what a thread made of a few patches, held until its turn comes in draw order.
 
 use super::{DrawState, Pending, Tally};
+use crate::attribute::AttributeTable;
 use crate::error::Result;
 use crate::sink::{PatchMesh, Sink};
-use crate::trace::attributes::AttributeTable;
 use crate::unit::chain::Work as Done;
 use crate::unit::pipeline::{Front, Pipeline};
 use rtl_model::counter::Counters;
 use rtl_model::emit::Screen;
+use rtl_model::number::Rounding;
 use rtl_model::patch::{Triangle, Vertex};
 use rtl_model::strip::Topology;
 use std::sync::Arc;
@@ -19,7 +20,7 @@ pub(super) struct Pieces<T> {
     vertices: Vec<Vertex>,
     screen: Vec<Screen>,
     triangles: Vec<Triangle>,
-    pub(super) attributes: Vec<i64>,
+    attributes: Vec<i64>,
     tallies: Vec<Tally>,
     pub(super) done: Vec<Done<T>>,
     pub(super) counters: Counters,
@@ -51,7 +52,12 @@ impl<T: Topology> Pieces<T> {
         pending: &Pending,
         draw: &DrawState,
         made: &Pipeline<'_, F>,
+        rounding: Rounding,
     ) {
+        if let Some(attributes) = &draw.attributes {
+            let out = &mut self.attributes;
+            attributes.interpolate(pending.corners, &made.vertices, rounding, out);
+        }
         self.vertices.extend_from_slice(&made.vertices);
         self.screen.extend_from_slice(&made.screen);
         self.triangles.extend_from_slice(made.triangles());
