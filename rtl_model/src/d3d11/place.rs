@@ -21,8 +21,8 @@
 use super::factor::Factor;
 use fixed::types::U16F16;
 
-/// Most points: factor 64.
-const POINTS_MAX: usize = 65;
+/// Most points, of factor 64, and some more: runs are copied by the handful.
+const PADDED: usize = 72;
 
 /// The middle and the end of an edge in U1.16.
 const HALF: u32 = 1 << 15;
@@ -44,20 +44,14 @@ const RECIPROCALS: [u32; 65] = {
 pub struct List {
     factor: Factor,
     count: usize,
-    ascending: [u32; POINTS_MAX],
-    /// The same from the other end, for what runs that way.
-    descending: [u32; POINTS_MAX],
+    /// Of no meaning after the first `count`.
+    parameters: [u32; PADDED],
 }
 
 impl Default for List {
     /// One segment.
     fn default() -> Self {
-        let mut list = Self {
-            factor: Factor::default(),
-            count: 2,
-            ascending: [0; POINTS_MAX],
-            descending: [0; POINTS_MAX],
-        };
+        let mut list = Self { factor: Factor::default(), count: 2, parameters: [0; PADDED] };
         list.fill();
         list
     }
@@ -65,6 +59,7 @@ impl Default for List {
 
 impl List {
     /// Makes this the list of `factor`; nothing to do where it is already.
+    #[inline]
     pub(super) fn set(&mut self, factor: Factor) {
         if factor != self.factor {
             self.factor = factor;
@@ -72,16 +67,20 @@ impl List {
         }
     }
 
-    /// The parameters, 0 to 65536.
+    /// The parameters, 0 to 65536. Number k from the other end is 65536 minus number k.
     #[must_use]
-    pub fn ascending(&self) -> &[u32] {
-        &self.ascending[..self.count]
+    pub fn parameters(&self) -> &[u32] {
+        &self.parameters[..self.count]
     }
 
-    /// The parameters from the other end, 65536 to 0.
-    #[must_use]
-    pub fn descending(&self) -> &[u32] {
-        &self.descending[..self.count]
+    /// The number of the last parameter, which is the number of segments: 1 to 64.
+    pub(super) fn last(&self) -> usize {
+        self.count - 1
+    }
+
+    /// The parameters, and numbers that mean nothing after them.
+    pub(super) fn padded(&self) -> &[u32; PADDED] {
+        &self.parameters
     }
 
     fn fill(&mut self) {
@@ -89,24 +88,18 @@ impl List {
         let (floor, points): (usize, usize) = (half.to_num(), half.ceil().to_num());
         let split = split(floor, half, self.factor.odd);
         let t = half.frac().to_bits(); // U0.16
-        // Both partitions' steps, weighted: U1.32, at most 2^32 in sum, and a half-edge 2^31.
+        // Both partitions' steps, weighted: U1.32, 2^32 in sum where there is a single segment.
         let of_floor = RECIPROCALS[2 * floor - odd].wrapping_mul(ONE - t);
         let step = of_floor.wrapping_add(RECIPROCALS[2 * points - odd].wrapping_mul(t));
         self.count = 2 * points + 1 - odd;
-        let last = self.count - 1;
-        let mut at = HALF; // half an ulp
-        for p in 0..points {
-            let parameter = at >> 16;
-            self.ascending[p] = parameter;
-            self.ascending[last - p] = ONE - parameter;
-            self.descending[last - p] = parameter;
-            self.descending[p] = ONE - parameter;
+        self.parameters[points] = HALF; // of an even list; the first one of an odd list's far half
+        let (near, far) = self.parameters[..self.count].split_at_mut(points);
+        let mut at = 1 << 15; // half an ulp
+        for (p, (near, far)) in near.iter_mut().zip(far.iter_mut().rev()).enumerate() {
+            *near = at >> 16;
+            *far = ONE - *near;
             // The point after the split is the same one of the floor partition.
             at = at.wrapping_add(step).wrapping_sub(if p == split { of_floor } else { 0 });
-        }
-        if odd == 0 {
-            self.ascending[points] = HALF;
-            self.descending[points] = HALF;
         }
     }
 }
