@@ -7,6 +7,7 @@
 
 pub mod block;
 pub mod check;
+pub mod d3d11;
 mod default;
 pub mod keys;
 pub mod layers;

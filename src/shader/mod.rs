@@ -2,3 +2,5 @@
 //! machine computes the same bits and equal control points under equal matrices stay equal.
 
 pub mod control_point;
+pub mod domain;
+pub mod hull;
