@@ -18,9 +18,11 @@ mod union;
 
 use serde::{Deserialize, Serialize};
 
-pub use block::{BackfaceCosts, BlockCosts, Blocks, EvaluateCosts};
+pub use block::{BackfaceCosts, BlockCosts, Blocks, DomainCosts, EvaluateCosts};
+pub use d3d11::{Arithmetic, Domain, DomainKind, FactorPolicy, Form, Hull, Tessellator};
 pub use link::{Bus, Channels, Link, Memory, TransferMode};
 pub use rtl_model::backface::Method as BackfaceMethod;
+pub use rtl_model::d3d11::Partitioning;
 pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::level::Termination;
 pub use rtl_model::number::{Overflow, Rounding};
@@ -43,11 +45,14 @@ pub enum Unit {
     Sfarti,
     /// GeForce3's: before transform, with levels from the driver, and no culling.
     Moreton,
+    /// What ships today: hull shader, fixed-function tessellator, domain shader.
+    D3d11,
 }
 
 impl Unit {
     /// All of them, the default first.
-    pub const ALL: [Self; 4] = [Self::Hybrid, Self::Triangles, Self::Sfarti, Self::Moreton];
+    pub const ALL: [Self; 5] =
+        [Self::Hybrid, Self::Triangles, Self::Sfarti, Self::Moreton, Self::D3d11];
 
     /// The name in configurations and reports.
     #[must_use]
@@ -57,6 +62,7 @@ impl Unit {
             Self::Triangles => "triangles",
             Self::Sfarti => "sfarti",
             Self::Moreton => "moreton",
+            Self::D3d11 => "d3d11",
         }
     }
 
@@ -64,6 +70,20 @@ impl Unit {
     #[must_use]
     pub const fn host_tessellates(self) -> bool {
         matches!(self, Self::Triangles)
+    }
+
+    /// Whether strips, fans and meshes cross the link as such. Where they do not, they are indexed
+    /// patches.
+    #[must_use]
+    pub const fn has_surface_primitives(self) -> bool {
+        !matches!(self, Self::D3d11)
+    }
+
+    /// Whether a vertex shader lights what leaves the unit: where there is none, the domain shader
+    /// does.
+    #[must_use]
+    pub const fn has_vertex_shader(self) -> bool {
+        !matches!(self, Self::D3d11)
     }
 
     /// Whether the unit works in object space, and a vertex program transforms what leaves it.
@@ -123,14 +143,20 @@ pub struct Config {
     pub position: Position,
     /// Primitives to patches.
     pub assemble: Assemble,
+    /// The hull shader (unit `d3d11`).
+    pub hull: Hull,
     /// Levels.
     pub level: Level,
     /// Trivial clipping.
     pub clip: Clip,
     /// Back-face removal.
     pub backface: Backface,
+    /// The fixed-function tessellator (unit `d3d11`).
+    pub tessellator: Tessellator,
     /// Points of the surface.
     pub evaluate: Evaluate,
+    /// The domain shader (unit `d3d11`).
+    pub domain: Domain,
     /// Attributes of corners, interpolated over the patch.
     pub attributes: Attributes,
     /// Divide and output.

@@ -2,6 +2,8 @@
 //! counters, and the expected counters of every shipped trace (`UPDATE_EXPECT=1` rewrites those,
 //! for a person to read the difference).
 
+#[path = "known/d3d11.rs"]
+mod d3d11;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/random.rs"]
 mod random;
@@ -186,6 +188,7 @@ fn a_mesh_brings_its_points_once_an_instance() {
 fn laws(c: &Counters, config: &Config) {
     equal(c, config);
     at_most(c, config);
+    d3d11::laws(c, config);
 }
 
 fn equal(c: &Counters, config: &Config) {
@@ -204,7 +207,9 @@ fn equal(c: &Counters, config: &Config) {
     let moved = get(C::MemoryReadControlPoints)
         + get(C::MemoryReadAttributes)
         + get(C::MemoryWrittenControlPoints)
-        + get(C::MemoryWrittenAttributes);
+        + get(C::MemoryWrittenAttributes)
+        + get(C::MemoryReadPatches)
+        + get(C::MemoryWrittenPatches);
     let emit = u64::from(config.emit.vertex_bytes) * get(C::EmitVertices)
         + get(C::EmitAttributeBytes)
         + 3 * u64::from(config.emit.index_bytes) * get(C::EmitTriangles);
@@ -230,13 +235,14 @@ fn equal(c: &Counters, config: &Config) {
         (get(C::ClipIn), or_0(C::AssemblePatches)),
         (get(C::ClipIn) - get(C::ClipCulled), get(C::BackfaceIn)),
         (kept, get(C::LevelPatches) + get(C::PlaceMeasured)),
-        (get(C::EvaluateVertices), get(C::EmitVertices)),
-        (get(C::StitchTriangles), get(C::EmitTriangles)),
-        (get(C::EmitVertices), get(C::VertexShaderInvocations)),
+        (get(C::EvaluateVertices) + get(C::DomainInvocations), get(C::EmitVertices)),
+        (get(C::StitchTriangles) + get(C::ConnectTriangles), get(C::EmitTriangles)),
+        (get(C::EvaluateVertices), get(C::VertexShaderInvocations)),
         (get(C::EmitBytes), emit),
         (
             get(C::EmitAttributeBytes),
-            get(C::EvaluateAttributes) * config.attributes.component_bytes(),
+            (get(C::EvaluateAttributes) + get(C::DomainAttributes))
+                * config.attributes.component_bytes(),
         ),
         ((get(C::AssembleCorners) + get(C::AssembleCornersReused)) % 4, 0),
     ];
@@ -275,9 +281,9 @@ fn at_most(c: &Counters, config: &Config) {
         (get(C::StitchDegenerate), get(C::StitchTriangles)),
         (get(C::EmitToClipper), get(C::EmitVertices)),
         // 2V - B - 2 with at least 4 boundary vertices a patch
-        (get(C::StitchTriangles), 2 * get(C::EmitVertices) - 6 * get(C::LevelPatches)),
+        (get(C::EmitTriangles), 2 * get(C::EmitVertices) - 6 * get(C::LevelPatches)),
         (get(C::LevelFlatness) + get(C::LevelEdgeLength), get(C::LevelPatches)),
-        (get(C::LevelPatches), get(C::EvaluateStrips)),
+        (get(C::LevelPatches), get(C::EvaluateStrips) + get(C::DomainWaves)),
         (get(C::EvaluateStrips), get(C::StitchTriangles)),
     ];
     for (k, (a, b)) in at_most.iter().enumerate() {
@@ -325,6 +331,7 @@ fn counters_conserve_what_flows_under_every_configuration() {
         config.level.max_level = random.of([None, Some(4.0)]);
         config.assemble.cache_entries = random.of([0, 1, 16, 32, 200]);
         config.attributes.width = random.of([17, 32, 46]);
+        d3d11::vary(&mut random, &mut config);
         for name in SHIPPED {
             let report = run_text(&shipped(name), &config).expect("a shipped trace");
             for frame in &report.frames {

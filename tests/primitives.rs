@@ -11,7 +11,7 @@ mod run;
 
 use glam::Vec3;
 use random::Random;
-use rtl_model::counter::{Counter as C, Counters};
+use rtl_model::counter::{Counter as C, Counters, DECLARATIONS};
 use rtl_model::patch::{Triangle, Vertex};
 use std::sync::Arc;
 use tessim::attribute::{Attribute, AttributeFormat, AttributeTable};
@@ -162,8 +162,37 @@ fn same(
     let (indexed, indexed_counters) = surface.draw(indexed, resident, config);
     assert!(own == indexed, "{primitive:?} is other than its indexed mesh");
     let made = own.0.iter().map(|mesh| mesh.vertices.len()).sum::<usize>() as u64;
-    assert_eq!(own_counters.get(C::EvaluateAttributes), COMPONENTS as u64 * made);
+    let interpolated = [C::EvaluateAttributes, C::DomainAttributes].map(|c| own_counters.get(c));
+    assert_eq!(interpolated.iter().sum::<u64>(), COMPONENTS as u64 * made);
     [own_counters, apart_counters, indexed_counters]
+}
+
+/// In a unit that knows nothing but patches, a primitive is the indexed mesh that it stands for.
+fn check_indexed(random: &mut Random, primitive: Primitive, instances: u64) -> u64 {
+    let mut config = Config { unit: Unit::D3d11, ..Config::default() };
+    config.assemble.cache_entries = random.of([0, 5, 16, 32, 1000]);
+    let [own, apart, indexed] = same(random, primitive, instances, &config);
+    let (points, corners) = paper(primitive);
+    let patches = primitive.patches();
+    let known = [
+        (own.get(C::LinkControlPoints), 12 * points),
+        (own.get(C::LinkAttributes), CORNER_BYTES * corners),
+        (2 * own.get(C::LinkIndices), indexed.get(C::LinkIndices)), // of 2 bytes, where 4 are asked
+        (apart.get(C::LinkIndices), 0),
+        (own.get(C::AssembleEdgePeak), 0),
+        (own.get(C::HullThreads), 16 * patches * instances),
+    ];
+    for (k, (got, want)) in known.iter().enumerate() {
+        assert_eq!(got, want, "count {k} of {primitive:?}, {instances} instances");
+    }
+    let links = [C::LinkIndices, C::LinkOverhead, C::LinkTotal];
+    let others = DECLARATIONS.iter().map(|d| d.counter).filter(|c| !links.contains(c));
+    let mut compared = 0;
+    for counter in others {
+        assert_eq!(own.get(counter), indexed.get(counter), "{counter:?} of {primitive:?}");
+        compared += 1;
+    }
+    known.len() as u64 + compared
 }
 
 /// Points and corners of a primitive by the paper's sums, not by ours.
@@ -240,6 +269,13 @@ fn every_primitive_is_its_patches_and_counts_as_the_paper_says() {
         compared += check(&mut random, Primitive::Strip { count }, instances);
         compared += check(&mut random, Primitive::Fan { count, encoding }, instances);
         compared += check(&mut random, Primitive::Mesh { rows, columns }, instances);
+        for primitive in [
+            Primitive::Strip { count },
+            Primitive::Fan { count, encoding },
+            Primitive::Mesh { rows, columns },
+        ] {
+            compared += check_indexed(&mut random, primitive, instances);
+        }
     }
     println!("compared {compared} counts");
     assert!(compared >= 2000);
@@ -256,6 +292,7 @@ fn a_primitive_of_many_patches_is_its_patches() {
         Primitive::Mesh { rows: 3, columns: 1500 },
     ] {
         check(&mut random, primitive, 2);
+        check_indexed(&mut random, primitive, 1);
     }
 }
 

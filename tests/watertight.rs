@@ -18,7 +18,7 @@ use rtl_model::number::{Overflow, Rounding};
 use rtl_model::patch::{EDGES, Level, ONE, Point};
 use run::{Keep, Mesh, camera, draw, points, scale};
 use std::sync::Arc;
-use tessim::config::{Config, Scheme, Unit};
+use tessim::config::{Arithmetic, Config, FactorPolicy, Partitioning, Scheme, Unit};
 use tessim::trace::command::{Command, Draw, FanEncoding, Primitive, Tessellation};
 use tessim::trace::indices::{IndexFormat, Indices};
 use tessim::unit::simulate;
@@ -38,12 +38,15 @@ struct Shared {
 fn row(mesh: &Mesh, edge: usize) -> Vec<(Point, u32)> {
     let on = |v: &&rtl_model::patch::Vertex| [v.v == 0, v.u == ONE, v.v == ONE, v.u == 0][edge];
     let along = |v: &rtl_model::patch::Vertex| (v.position, if edge & 1 == 0 { v.u } else { v.v });
-    let mut row: Vec<_> = mesh.vertices.iter().filter(on).map(along).collect();
-    match edge {
-        2 => row.reverse(),
-        3 => {
-            row[1..].reverse(); // vertex 0 is the edge's first, the others are numbered backwards
-        }
+    // Euler's formula: an inner vertex may have come to lie on an edge, too.
+    let boundary = 2 * mesh.vertices.len() - mesh.triangles.len() - 2;
+    let mut row: Vec<_> = mesh.vertices[..boundary].iter().filter(on).map(along).collect();
+    // Counter-clockwise from (0, 0) or, in d3d11, from (0, 1): of the last edge, vertex 0 is the
+    // first, and the others are numbered backwards.
+    let from_above = mesh.vertices[0].v == ONE;
+    match (edge, from_above) {
+        (2, false) | (3, true) => row.reverse(),
+        (3, false) | (2, true) => row[1..].reverse(),
         _ => {}
     }
     row
@@ -92,8 +95,14 @@ fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
 }
 
 fn config(random: &mut Random) -> Config {
-    let unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton]);
+    let unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton, Unit::D3d11]);
     let mut config = Config { unit, ..Config::default() };
+    use Partitioning::{Even, Integer, Odd, Pow2};
+    config.tessellator.partitioning = random.of([Integer, Pow2, Odd, Even]);
+    config.hull.policy = random.of([FactorPolicy::Criterion, FactorPolicy::Adaptive]);
+    config.hull.pixels = random.of([0.1, 2.0, 40.0]);
+    config.domain.arithmetic = random.of([Arithmetic::F32, Arithmetic::Fixed]);
+    config.domain.weight_bits = 16 + random.integer(0, 14);
     config.level.termination = random.of([Termination::EightCurves, Termination::Bounded]);
     config.position.width = 8 + random.integer(0, 40);
     config.position.rounding = random.of(Rounding::ALL);
@@ -200,8 +209,8 @@ fn shared_edges_are_bit_identical() {
         edges >= 6000 && vertices > 5 * edges,
         "only {edges} edges, {vertices} vertices compared"
     );
-    for unit in [Unit::Hybrid, Unit::Sfarti, Unit::Moreton] {
-        assert!(of_unit[unit as usize] * 5 > edges, "{unit:?}: {of_unit:?} of {edges}");
+    for unit in [Unit::Hybrid, Unit::Sfarti, Unit::Moreton, Unit::D3d11] {
+        assert!(of_unit[unit as usize] * 6 > edges, "{unit:?}: {of_unit:?} of {edges}");
     }
     assert!(2 * uneven >= edges, "levels differ on only {uneven} of {edges}");
 }

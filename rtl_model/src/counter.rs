@@ -51,6 +51,8 @@ pub enum Block {
     Port,
     /// Primitives to patches.
     Assemble,
+    /// The hull shader.
+    Hull,
     /// Trivial clipping.
     Clip,
     /// Back-face removal.
@@ -59,10 +61,18 @@ pub enum Block {
     Level,
     /// Parameter lists.
     Place,
+    /// Tessellation factors.
+    Factors,
+    /// Domain points.
+    Points,
+    /// What joins them.
+    Connect,
     /// Points of the surface.
     Evaluate,
     /// Triangles.
     Stitch,
+    /// The domain shader.
+    Domain,
     /// Perspective divide and output.
     Emit,
     /// The vertex shader.
@@ -82,12 +92,17 @@ impl Block {
             Self::Transform => "transform",
             Self::Port => "port",
             Self::Assemble => "assemble",
+            Self::Hull => "hull",
             Self::Clip => "clip",
             Self::Backface => "backface",
             Self::Level => "level",
             Self::Place => "place",
+            Self::Factors => "factors",
+            Self::Points => "points",
+            Self::Connect => "connect",
             Self::Evaluate => "evaluate",
             Self::Stitch => "stitch",
+            Self::Domain => "domain",
             Self::Emit => "emit",
             Self::VertexShader => "vertex_shader",
             Self::Unit => "unit",
@@ -155,6 +170,9 @@ counters! {
         MemoryReadAttributes "bytes.read.attributes" Bytes "resident attributes, read by each instance of each draw that uses them", "";
         MemoryWrittenControlPoints "bytes.written.control_points" Bytes "resident control points, written once where their command stands", "<= link bytes.control_points";
         MemoryWrittenAttributes "bytes.written.attributes" Bytes "resident attributes, written once where their command stands", "<= link bytes.attributes";
+        MemoryReadPatches "bytes.read.patches" Bytes "what hull shaders wrote, read by domain shaders, once for each patch that is tessellated (`hull.to_memory`; unit `d3d11`)", "<= bytes.written.patches";
+        MemoryWrittenPatches "bytes.written.patches" Bytes "what hull shaders wrote for domain shaders (`hull.to_memory`; unit `d3d11`)", "= hull bytes.out, or 0";
+        MemoryPatchBursts "bursts.patches" Count "of the bursts, those of what hull shaders wrote; each patch starts a burst of its own", "<= bursts";
         MemoryBursts "bursts" Count "memory bursts, read and written; each instance of a draw, each upload, and each point of an indexed mesh that does not follow the one before starts a burst of its own", "bursts x burst = bytes read + written + wasted";
         MemoryWasted "bytes.wasted" Bytes "bytes of bursts that nothing asked for", "";
     }
@@ -181,8 +199,16 @@ counters! {
         AssembleEdgeLifetime "edge_entries.lifetime.peak" Count "most patches between the one that brings a shared control point and the last that uses it", "";
         AssembleCornerPeak "corner_entries.peak" Entries "most corners whose attributes are held at once for a later patch", "";
     }
+    Hull {
+        HullInvocations "invocations" Count "patches whose patch-constant function ran, once each", "= assemble patches = factors tokens.in";
+        HullThreads "threads" Count "control-point threads, one for each of a patch's 16 points: each transforms its point to clip space", "= 16 x invocations";
+        HullBytesIn "bytes.in" Bytes "what they read: of each patch 16 control points, 12 or 16 bytes each, and its corners' attributes", "";
+        HullBytesOut "bytes.out" Bytes "what they hand to the domain shader: of each patch 16 vec4 and 6 factors, 280 bytes, and its corners' attributes", ">= 280 x invocations";
+        HullBytesOnChip "bytes.out.on_chip" Bytes "of that, what stays on chip", "= bytes.out, or 0 (`hull.to_memory`)";
+        HullDistanceTests "distance_tests" Count "candidate positions at which the policy `adaptive` compared surface and control polygon", "0 under `criterion`";
+    }
     Clip {
-        ClipIn "patches.in" Count "patches tested", "= assemble patches";
+        ClipIn "patches.in" Count "patches tested (unit `d3d11`: by the patch-constant function, which culls by a factor of zero)", "= assemble patches";
         ClipCulled "patches.culled" Count "patches wholly outside one clip plane", "in - culled = backface patches.in";
         ClipMeasured "patches.culled.measured" Count "of those, patches of a first pass, which are removed again in the second (`level.union`; unit `sfarti`)", "<= patches.culled; this + backface patches.culled.measured + place patches.measured = assemble patches.measured";
     }
@@ -208,6 +234,21 @@ counters! {
         PlaceReciprocals "reciprocals" Count "reciprocals formed: one for each distinct level of a patch above 1", "<= 6 x patches";
         PlaceParameters "parameters" Count "parameters placed: the segments of the four edges, and the inner entries of the two interior lists", "";
     }
+    Factors {
+        FactorsProcessed "factors" Count "tessellation factors converted and clamped: six a patch", "= 6 x hull invocations";
+        FactorsCulled "patches.culled" Count "patches culled for an outer factor of zero", "= clip patches.culled + backface patches.culled";
+    }
+    Points {
+        PointsGenerated "points" Count "domain points generated, once each", "= emit vertices, where every point is kept (`domain.cache_entries` absent)";
+        PointsParameters "parameters" Count "parameters placed: those of the four edges and of the interior's two directions", ">= 8 x level patches";
+        PointsNonMonotone "points.non_monotone" Count "points of edges that lie before the point before them: rounded reciprocals, fractional even, factors just above 6 and 30", "<= points";
+    }
+    Connect {
+        ConnectTriangles "triangles" Count "triangles made", "= 2 x points - edge points - 2, summed over patches; = emit triangles";
+        ConnectInverted "triangles.inverted" Count "triangles turned round in the domain: they belong to points that are not monotone", "<= triangles";
+        ConnectZeroArea "triangles.zero_area" Count "triangles without area in the domain: normal where a factor is near an integer", "<= triangles";
+        ConnectDegenerate "triangles.degenerate" Count "triangles with two equal clip positions; they stay in the mesh", "<= triangles";
+    }
     Evaluate {
         EvaluateInvocations "invocations" Count "points evaluated: boundary and interior vertices, and the control points of interior rows", "";
         EvaluateVertices "vertices" Count "distinct parameters within the patch", "= emit vertices";
@@ -225,10 +266,25 @@ counters! {
         StitchTriangles "triangles" Count "triangles made", "= 2 x vertices - boundary vertices - 2, summed over patches; = emit triangles";
         StitchDegenerate "triangles.degenerate" Count "triangles with two equal clip positions; they stay in the mesh", "<= triangles";
     }
+    Domain {
+        DomainInvocations "invocations" Count "points shaded: once for each time that the cache of shaded points lacks one", "points <= invocations <= 3 x connect triangles; = emit vertices";
+        DomainRepeated "invocations.repeated" Count "of those, points that were shaded for the same patch before", "= invocations - points";
+        DomainWaves "waves" Count "SIMD waves: full ones, and the last of a patch", "= connect tokens.out";
+        DomainIdle "lanes.idle" Count "SIMD lanes of waves that have no point to shade", "waves x domain.width = invocations + lanes.idle";
+        DomainIdleCycles "lane_cycles.idle" Cycles "cycles that those lanes last: of each wave, its interval", "= lanes.idle x interval";
+        DomainBytesControlPoints "bytes.in.control_points" Bytes "control points read: 16 vec4 for every invocation (naive), or for every patch (basis)", "= 256 x invocations, or 256 x level patches";
+        DomainBytesParameters "bytes.in.parameters" Bytes "parameters read", "= invocations x domain.bytes_in";
+        DomainBytesAttributes "bytes.in.attributes" Bytes "attributes of corners read: four corners, as often as control points are", "";
+        DomainBytesOut "bytes.out" Bytes "shaded points with their attributes", "= invocations x domain.bytes_out + emit bytes.attributes";
+        DomainAttributes "attributes" Count "components of attributes interpolated: a draw's, at each invocation", "";
+        DomainNormals "normals" Count "tangent planes evaluated", "= invocations or 0";
+        DomainCracks "cracks" Count "points of edges, corners left out, that come out otherwise for a neighbour that walks the edge from its other end or has it on another side: 0 under `paired`", "<= points";
+        DomainOverflows "overflows" Count "coordinates of shaded points that did not fit the position format", "";
+    }
     Emit {
-        EmitVertices "vertices" Count "vertices that left the unit", "= evaluate vertices";
-        EmitTriangles "triangles" Count "triangles that left the unit", "= stitch triangles";
-        EmitAttributeBytes "bytes.attributes" Bytes "interpolated attributes that left the unit with its vertices", "= evaluate attributes x bytes of a component";
+        EmitVertices "vertices" Count "vertices that left the unit", "= evaluate vertices, or domain invocations";
+        EmitTriangles "triangles" Count "triangles that left the unit", "= stitch or connect triangles";
+        EmitAttributeBytes "bytes.attributes" Bytes "interpolated attributes that left the unit with its vertices", "= evaluate or domain attributes x bytes of a component";
         EmitBytes "bytes" Bytes "vertex records, attributes and triangle indices that left the unit", "= vertices x vertex_bytes + bytes.attributes + 3 x triangles x index_bytes";
         EmitToClipper "vertices.to_clipper" Count "vertices left homogeneous: w <= 0, or outside the sub-pixel format's band", "<= vertices";
     }

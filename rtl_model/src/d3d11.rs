@@ -27,6 +27,7 @@ mod place;
 mod points;
 mod stitch;
 mod walk;
+pub mod wave;
 
 pub use factor::Factors;
 pub use place::List;

@@ -11,7 +11,7 @@ mod schedule;
 use crate::patch::Triangle;
 use crate::strip::{Segments, Topology};
 
-pub use degenerate::Degenerate;
+pub use degenerate::{Degenerate, degenerate};
 pub use schedule::Schedule;
 
 /// The block, which keeps the triangles of its last patch: the next one has the same where its

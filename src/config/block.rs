@@ -6,7 +6,7 @@
 //! under way in a lane at once. A block takes at most one token a cycle and gives one a cycle,
 //! however many lanes it has.
 
-use super::{BackfaceMethod, Config};
+use super::{BackfaceMethod, Config, Domain, DomainKind};
 use rtl_model::counter::Block;
 use rtl_model::time::{LaneOrder, Shape};
 use serde::{Deserialize, Serialize};
@@ -19,16 +19,21 @@ pub const ENTRIES_MAX: u32 = 1 << 16;
 pub const LANES_MAX: u32 = 1 << 12;
 
 /// The blocks that have costs, in the order of the data.
-pub const TIMED: [Block; 11] = [
+pub const TIMED: [Block; 16] = [
     Block::Transform,
     Block::Port,
     Block::Assemble,
+    Block::Hull,
     Block::Clip,
     Block::Backface,
     Block::Level,
     Block::Place,
+    Block::Factors,
+    Block::Points,
+    Block::Connect,
     Block::Evaluate,
     Block::Stitch,
+    Block::Domain,
     Block::Emit,
     Block::VertexShader,
 ];
@@ -38,6 +43,10 @@ pub const TIMED: [Block; 11] = [
 const BACKFACE_DRAIN: u32 = 8;
 /// What a patch costs that back-face removal passes on untested: it goes by the multipliers.
 const UNTESTED: (u32, u32) = (1, 1);
+
+/// Cycles a point of a domain shader that reads 16 control points of 16 bytes for each, 64 bytes a
+/// cycle.
+const NAIVE_CYCLES: u32 = 4;
 
 /// The costs of a block.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,6 +90,26 @@ pub struct BackfaceCosts {
     pub fifo: u32,
 }
 
+/// The costs of the domain shader. The interval is that of a wave.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DomainCosts {
+    /// As [`BlockCosts::interval`]; a cycle a point when absent, or four under
+    /// [`DomainKind::Naive`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interval: Option<u32>,
+    /// As [`BlockCosts::latency`].
+    pub latency: u32,
+    /// As [`BlockCosts::in_flight`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub in_flight: Option<u32>,
+    /// As [`BlockCosts::lanes`].
+    pub lanes: u32,
+    /// As [`BlockCosts::lane_order`].
+    pub lane_order: LaneOrder,
+    /// As [`BlockCosts::fifo`].
+    pub fifo: u32,
+}
+
 /// The costs of evaluate.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EvaluateCosts {
@@ -102,6 +131,8 @@ pub struct Blocks {
     pub port: BlockCosts,
     /// Primitives to patches.
     pub assemble: BlockCosts,
+    /// The hull shader.
+    pub hull: BlockCosts,
     /// Trivial clipping.
     pub clip: BlockCosts,
     /// Back-face removal.
@@ -110,10 +141,18 @@ pub struct Blocks {
     pub level: BlockCosts,
     /// Parameter lists.
     pub place: BlockCosts,
+    /// Tessellation factors.
+    pub factors: BlockCosts,
+    /// Domain points.
+    pub points: BlockCosts,
+    /// What joins them.
+    pub connect: BlockCosts,
     /// Points of the surface.
     pub evaluate: EvaluateCosts,
     /// Triangles.
     pub stitch: BlockCosts,
+    /// The domain shader.
+    pub domain: DomainCosts,
     /// Perspective divide and output.
     pub emit: BlockCosts,
     /// The vertex shader.
@@ -136,6 +175,7 @@ impl Default for Blocks {
             transform: costs(1, 200, 32),
             port: costs(1, 1, 32),
             assemble: costs(1, 1, 32),
+            hull: costs(1, 200, 4),
             clip: costs(4, 5, 4),
             backface: BackfaceCosts {
                 interval: None,
@@ -147,8 +187,19 @@ impl Default for Blocks {
             },
             level: costs(1, 16, 4),
             place: costs(1, 16, 4),
+            factors: costs(1, 8, 4),
+            points: costs(1, 4, 4),
+            connect: costs(1, 2, 4),
             evaluate: EvaluateCosts { costs: costs(1, 4, 4), setup: 16 },
             stitch: costs(1, 1, 2),
+            domain: DomainCosts {
+                interval: None,
+                latency: 200,
+                in_flight: None,
+                lanes,
+                lane_order,
+                fifo: 4,
+            },
             emit: costs(1, 16, 16),
             vertex_shader: costs(1, 200, 32),
         }
@@ -215,6 +266,24 @@ impl BackfaceCosts {
     }
 }
 
+impl DomainCosts {
+    /// The costs of a wave of so many points.
+    fn of(&self, domain: &Domain) -> BlockCosts {
+        let cycles = match domain.shader {
+            DomainKind::Basis => 1,
+            DomainKind::Naive => NAIVE_CYCLES,
+        };
+        BlockCosts {
+            interval: self.interval.unwrap_or(cycles * domain.width),
+            latency: self.latency,
+            in_flight: self.in_flight,
+            lanes: self.lanes,
+            lane_order: self.lane_order,
+            fifo: self.fifo,
+        }
+    }
+}
+
 impl Config {
     /// What `block` costs, with what is absent derived; of [`Block::Backface`], what a patch costs
     /// that the configured method tests. `None` for what is no block of the unit: the trace, the
@@ -227,13 +296,18 @@ impl Config {
             Block::Transform => blocks.transform.clone(),
             Block::Port => blocks.port.clone(),
             Block::Assemble => blocks.assemble.clone(),
+            Block::Hull => blocks.hull.holding(16),
             Block::Clip => blocks.clip.clone(),
             Block::Backface => blocks.backface.of_method(self.backface.method),
             // Their tokens are patches of several items: so few fill the pipeline.
             Block::Level => blocks.level.holding(4),
             Block::Place => blocks.place.holding(4),
+            Block::Factors => blocks.factors.holding(4),
+            Block::Points => blocks.points.holding(2),
+            Block::Connect => blocks.connect.holding(2),
             Block::Evaluate => blocks.evaluate.costs.holding(2),
             Block::Stitch => blocks.stitch.clone(),
+            Block::Domain => blocks.domain.of(&self.domain),
             Block::Emit => blocks.emit.clone(),
             Block::VertexShader => blocks.vertex_shader.clone(),
         })

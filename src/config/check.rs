@@ -3,6 +3,7 @@
 //! expected.
 
 use super::block::{CYCLES_MAX, ENTRIES_MAX, LANES_MAX, TIMED};
+use super::d3d11::{CANDIDATES_MAX, WIDTH_MAX as WAVE_MAX};
 use super::link::BANDWIDTH_MAX;
 use super::{Attributes, Config, Criterion, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
@@ -46,6 +47,7 @@ impl Config {
     pub(super) fn problem(&self) -> Result<(), Problem> {
         self.formats()?;
         self.levels()?;
+        self.shaders()?;
         self.sizes()?;
         self.host_link()?;
         self.device_memory()?;
@@ -106,6 +108,17 @@ impl Config {
             _ => return Ok(()),
         };
         Err(Problem { key: "level.criterion", message: message.to_owned() })
+    }
+
+    fn shaders(&self) -> Result<(), Problem> {
+        let Self { hull, domain, .. } = self;
+        number("hull.pixels", Some(hull.pixels), |p| (0.0..=65535.0).contains(&p))?;
+        within("hull.candidates", hull.candidates, 1, CANDIDATES_MAX)?;
+        within("domain.weight_bits", domain.weight_bits, 16, 30)?;
+        within("domain.cache_entries", domain.cache_entries.unwrap_or(0), 0, 65536)?;
+        within("domain.width", domain.width, 1, WAVE_MAX)?;
+        within("domain.bytes_in", domain.bytes_in, 0, 65536)?;
+        within("domain.bytes_out", domain.bytes_out, 0, 65536)
     }
 
     fn sizes(&self) -> Result<(), Problem> {
@@ -181,6 +194,7 @@ impl Config {
         let backface = &self.block.backface;
         within("block.backface.interval", backface.interval.unwrap_or(1), 1, CYCLES_MAX)?;
         within("block.backface.latency", backface.latency.unwrap_or(0), 0, CYCLES_MAX)?;
+        within("block.domain.interval", self.block.domain.interval.unwrap_or(1), 1, CYCLES_MAX)?;
         within("block.evaluate.setup", self.block.evaluate.setup, 0, CYCLES_MAX)
     }
 }
@@ -237,6 +251,14 @@ mod tests {
         refused("level.near", |c| c.level.near = Some(f64::INFINITY));
         refused("level.level", |c| c.level.level = Some(0.5));
         refused("level.max_level", |c| c.level.max_level = Some(129.0));
+        refused("hull.pixels", |c| c.hull.pixels = f64::NAN);
+        refused("hull.candidates", |c| c.hull.candidates = 21);
+        refused("domain.weight_bits", |c| c.domain.weight_bits = 15);
+        refused("domain.cache_entries", |c| c.domain.cache_entries = Some(65537));
+        refused("domain.width", |c| c.domain.width = 0);
+        refused("domain.bytes_in", |c| c.domain.bytes_in = 65537);
+        refused("domain.bytes_out", |c| c.domain.bytes_out = 65537);
+        refused("block.domain.interval", |c| c.block.domain.interval = Some(0));
         refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
         refused("link.header", |c| c.link.payload = 0);
         refused("link.bandwidth_mb_s", |c| c.link.bandwidth_mb_s = 0);

@@ -1,9 +1,9 @@
 //! What holds where nothing is configured: the preset `modern`, and the reasons for it.
 
 use super::{
-    Assemble, Attributes, Backface, BackfaceMethod, Blocks, Clip, Config, Emit, Engine, Evaluate,
-    Frames, Level, Link, Memory, Normals, Overflow, Position, Rounding, Scheme, Termination,
-    Triangles, Union, Unit, VertexShader,
+    Assemble, Attributes, Backface, BackfaceMethod, Blocks, Clip, Config, Domain, Emit, Engine,
+    Evaluate, Frames, Hull, Level, Link, Memory, Normals, Overflow, Position, Rounding, Scheme,
+    Termination, Tessellator, Triangles, Union, Unit, VertexShader,
 };
 
 impl Default for Config {
@@ -16,10 +16,13 @@ impl Default for Config {
             frames: Frames::default(),
             position: Position::default(),
             assemble: Assemble::default(),
+            hull: Hull::default(),
             level: Level::default(),
             clip: Clip::default(),
             backface: Backface::default(),
+            tessellator: Tessellator::default(),
             evaluate: Evaluate::default(),
+            domain: Domain::default(),
             attributes: Attributes::default(),
             emit: Emit::default(),
             vertex_shader: VertexShader::default(),

@@ -31,7 +31,7 @@ const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 pub const KEYS: &[Key] = &join::<{ PLAIN.len() + block::KEYS.len() }>(PLAIN, block::KEYS);
 
 const PLAIN: &[Key] = &[
-    key("unit", "the unit that runs", "hybrid, triangles, sfarti or moreton"),
+    key("unit", "the unit that runs", "hybrid, triangles, sfarti, moreton or d3d11"),
     key("engine", "what lays time over the blocks", "timed, stepped or none"),
     key("clock_mhz", "the clock in MHz; every number of cycles is one of this clock", "1..=100000"),
     key("frames", "whether a frame waits until the one before has left", "drain or overlap"),
@@ -58,6 +58,28 @@ const PLAIN: &[Key] = &[
         "assemble.cache_entries",
         "transformed points that the cache of an indexed mesh holds, first in first out; 0: none",
         "0..=65536",
+    ),
+    key(
+        "hull.policy",
+        "what the hull shader computes tessellation factors from: the criterion of the trace or \
+         of level.*, or the distance between each edge and its control polygon (unit d3d11)",
+        "criterion or adaptive",
+    ),
+    key(
+        "hull.pixels",
+        "distance above which adaptive inserts a vertex, in pixels",
+        "a number >= 0, at most 65535",
+    ),
+    key(
+        "hull.candidates",
+        "positions in each third of an edge at which adaptive tests the distance",
+        "1..=20",
+    ),
+    key(
+        "hull.to_memory",
+        "whether what the hull shader hands to the domain shader goes through device memory, and \
+         not on chip (unit d3d11)",
+        "true or false",
     ),
     optional(
         "level.criterion",
@@ -116,6 +138,11 @@ const PLAIN: &[Key] = &[
         "off, net_facets, tangent_plane, normal_cone or hull_literal",
     ),
     key(
+        "tessellator.partitioning",
+        "how tessellation factors divide edges (unit d3d11)",
+        "integer, pow2, odd or even",
+    ),
+    key(
         "evaluate.scheme",
         "how points are computed; unit sfarti: always de_casteljau",
         "forward, mixed or de_casteljau",
@@ -128,6 +155,37 @@ const PLAIN: &[Key] = &[
     ),
     key("evaluate.rounding", "how an evaluated point is rounded", ROUNDING),
     key("evaluate.normals", "what the vertex shader gets to light with", "off or tangent_plane"),
+    key(
+        "domain.shader",
+        "whether the domain shader reads the control points for every point, and forms the whole \
+         product of it, or once a patch (unit d3d11)",
+        "naive or basis",
+    ),
+    key(
+        "domain.form",
+        "in which form it evaluates: Bernstein sums that are the same from either end of an edge, \
+         those from left to right, or the power basis; only paired has no cracks",
+        "paired, sequential or power",
+    ),
+    key(
+        "domain.arithmetic",
+        "in which numbers it evaluates; fixed: those of position.width, each operation rounded",
+        "f32 or fixed",
+    ),
+    key("domain.weight_bits", "fraction bits of a weight (fixed)", "16..=30"),
+    optional(
+        "domain.cache_entries",
+        "shaded points that are kept for the triangles that follow, first in first out",
+        "0..=65536",
+        ("32", "all of a patch's"),
+    ),
+    key(
+        "domain.width",
+        "points that a wave shades side by side; a wave is of one patch",
+        "1..=1024",
+    ),
+    key("domain.bytes_in", "bytes of a point's parameters, u and v", "0..=65536"),
+    key("domain.bytes_out", "bytes of a shaded point without its attributes", "0..=65536"),
     key("attributes.width", "bits of an attribute's component, with its sign", "8..=46"),
     key(
         "attributes.fraction",

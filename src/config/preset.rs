@@ -113,17 +113,23 @@ impl Preset {
     }
 }
 
-/// A unified shader array, given whole to each of the two shaders: they do not compete, which
-/// flatters a run in which both are busy. A lane (VLIW of 5 or 4) issues an instruction word a
+/// A unified shader array, given whole to each of the shaders: they do not compete, which
+/// flatters a run in which several are busy. A lane (VLIW of 5 or 4) issues an instruction word a
 /// cycle; a program of 20 words is assumed, and 200 cycles for it with its waits, hidden by the 11
 /// threads that a lane then holds.
 fn shader_array(blocks: &mut Blocks, lanes: u32) {
-    for shader in [&mut blocks.transform, &mut blocks.vertex_shader] {
+    for shader in [&mut blocks.transform, &mut blocks.hull, &mut blocks.vertex_shader] {
         shader.lanes = lanes;
-        shader.interval = 20;
+        shader.interval = WORDS;
         shader.latency = 200;
     }
+    // A wave takes as many cycles as it has points; so many waves side by side take as many points
+    // a cycle as the lanes do.
+    blocks.domain.lanes = lanes / WORDS;
 }
+
+/// Instruction words of a shader program.
+const WORDS: u32 = 20;
 
 #[cfg(test)]
 mod tests {

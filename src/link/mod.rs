@@ -10,7 +10,7 @@ pub mod schedule;
 pub mod wire;
 
 use crate::config::{Config, Link, Memory, Unit};
-use crate::trace::command::{Attributes, Command, Draw, Points};
+use crate::trace::command::{Attributes, Command, Draw, Points, Primitive};
 use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
 
@@ -94,8 +94,28 @@ pub fn to(unit: Unit, command: &Command) -> Transfer {
             Transfer { factors: patches * FACTORS * FLOAT, ..transfer }
         }
         (Unit::Moreton, Command::Tessellation(_)) => Transfer::default(),
+        (_, Command::Draw(draw)) if draw.indices.is_none() && is_indexed(unit, draw) => {
+            Transfer { indices: index_bytes(draw), ..transfer }
+        }
         _ => transfer,
     }
+}
+
+/// Whether the patches of a draw name their points and corners by indices: those of an indexed
+/// mesh, and, sent to a unit that knows nothing but patches, those of strips, fans and meshes.
+#[must_use]
+pub fn is_indexed(unit: Unit, draw: &Draw) -> bool {
+    let by_itself = matches!(draw.primitive, Primitive::Patches { .. });
+    draw.indices.is_some() || !(unit.has_surface_primitives() || by_itself)
+}
+
+/// The indices of a draw that has none of its own: 16 a patch, and 4 of its corners' attributes, of
+/// 2 bytes where they reach all points.
+fn index_bytes(draw: &Draw) -> u64 {
+    let points = draw.primitive.points().unwrap_or(u64::MAX);
+    let index = if points > SHORT_INDEX_MAX { 4 } else { 2 };
+    let corners = if draw.attributes.is_some() { 4 } else { 0 };
+    draw.primitive.patches() * (16 + corners) * index
 }
 
 fn patches(command: &Command) -> Transfer {

@@ -20,12 +20,10 @@
 //! agree. Operations are f32, in this order, none fused.
 
 use super::domain::{Arithmetic, Singles, bernstein, paired};
+use crate::config::d3d11::CANDIDATES_MAX;
 use glam::{Vec2, Vec4, Vec4Swizzles};
 use rtl_model::counter::standard::Ops;
 use rtl_model::patch::EDGES;
-
-/// Most candidate positions in a cell: a factor is at most 64.
-pub const CANDIDATES_MAX: u32 = 20;
 
 /// Rows 1 and 2 of the net, then columns 1 and 2: what decides with the edges on the interior.
 const INNER: [[usize; 4]; 4] = [[4, 5, 6, 7], [8, 9, 10, 11], [1, 5, 9, 13], [2, 6, 10, 14]];

@@ -11,9 +11,11 @@
 //! doubles step by step: `reciprocal`, `quotient`, `root`.
 
 pub mod backface;
+mod d3d11;
 mod level;
 
-use crate::config::{BackfaceMethod, Config, Scheme, Termination, Unit};
+use crate::config::{Arithmetic, BackfaceMethod, Config, Form, Scheme, Termination, Unit};
+use crate::shader::domain::ops::Widths;
 use rtl_model::counter::standard::Ops;
 use rtl_model::counter::{Block, Counter as C, Counters};
 
@@ -47,6 +49,9 @@ struct Formats {
     attribute: u64,
     /// A screen coordinate.
     screen: u64,
+    /// The order of operations of the domain shader, and its numbers.
+    form: Form,
+    domain: Widths,
 }
 
 impl Formats {
@@ -57,6 +62,13 @@ impl Formats {
             register: w + u64::from(config.guard()) + 3,
             attribute: config.attributes.width.into(),
             screen: 16 + u64::from(config.emit.subpixel_bits),
+            form: config.domain.form,
+            domain: match config.domain.arithmetic {
+                Arithmetic::F32 => Widths::F32,
+                Arithmetic::Fixed => {
+                    Widths::Fixed { width: w, weight_bits: config.domain.weight_bits.into() }
+                }
+            },
         }
     }
 }
@@ -123,6 +135,9 @@ pub const PIECES: &[Piece] = &[
         times: |f| f.get(C::TransformInvocations),
         once: transformation,
     },
+    d3d11::THREAD,
+    d3d11::DISTANCE,
+    d3d11::GRANTED,
     Piece {
         block: Block::Port,
         meaning: "a control point rounded to the position format: 4 increments of W bits, for want \
@@ -177,6 +192,9 @@ pub const PIECES: &[Piece] = &[
         times: |f| f.fractional(C::PlaceParameters),
         once: |_| Ops::default().adds(1, 33),
     },
+    d3d11::FACTORS,
+    d3d11::POINTS,
+    d3d11::CONNECT,
     Piece {
         block: Block::Evaluate,
         meaning: "a forward-difference step: 3 additions of a vec4, W + guard + 3 bits",
@@ -230,6 +248,11 @@ pub const PIECES: &[Piece] = &[
         times: |f| f.get(C::StitchTriangles) - f.fractional(C::StitchTriangles),
         once: |_| Ops::default().compares(1, 8),
     },
+    d3d11::DOMAIN_POINT,
+    d3d11::DOMAIN_PATCH,
+    d3d11::NAIVE_POINT,
+    d3d11::ATTRIBUTES,
+    d3d11::NORMALS,
     Piece {
         block: Block::Emit,
         meaning: "a vertex divided: w > 0, x + w and w - y, both times the viewport's size (15 \
@@ -260,7 +283,12 @@ pub(super) fn of(block: Block, counters: &Counters, config: &Config) -> Option<O
     let formats = Formats::of(config);
     // Elsewhere a vertex shader has no arithmetic that is known here.
     let known = block != Block::VertexShader || config.unit.in_object_space();
-    let pieces = PIECES.iter().filter(|piece| piece.block == block && known);
+    // A hull shader's program does what elsewhere are blocks.
+    let program: &[Block] = match block {
+        Block::Hull => &[Block::Hull, Block::Clip, Block::Backface, Block::Level],
+        _ => &[block],
+    };
+    let pieces = PIECES.iter().filter(|piece| program.contains(&piece.block) && known);
     pieces.fold(None, |sum, piece| {
         let times = (piece.times)(&frame);
         Some(sum.unwrap_or_default().with(times, (piece.once)(formats)))

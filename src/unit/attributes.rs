@@ -1,12 +1,10 @@
 //! Attributes on their way through the unit: a table in, its components in the attribute format;
 //! a patch's corners and vertices in, the values of the vertices out.
 
-use super::pipeline::{Front, Pipeline};
 use crate::attribute::AttributeTable;
 use crate::config::Config;
 use crate::trace::command::Attributes;
 use rtl_model::attribute;
-use rtl_model::counter::Counter;
 use rtl_model::number::{Format, Modal, OverflowMode, RoundingMode, dispatch};
 use rtl_model::number::{Overflow, Rounding, from_f32_bits};
 use rtl_model::patch::Vertex;
@@ -35,17 +33,6 @@ impl Corners {
         let work = CornerWork { values: &table.values, format };
         let (raw, saturated) = dispatch(config.attributes.rounding, Overflow::Saturate, work);
         Self { table, resident: attributes.resident, raw, saturated }
-    }
-
-    /// Counts the interpolation of a patch's vertices.
-    pub(super) fn count(&self, config: &Config, made: &mut Pipeline<'_, impl Front>) {
-        let components = (self.table.components() * made.vertices.len()) as u64;
-        let bytes = components * config.attributes.component_bytes();
-        let counters = &mut made.counters;
-        counters.add(Counter::EvaluateAttributes, components);
-        counters.add(Counter::EmitAttributeBytes, bytes);
-        counters.add(Counter::EmitBytes, bytes);
-        counters.add(Counter::VertexShaderBytesIn, bytes);
     }
 
     /// Appends the attributes of a patch's vertices to `out`, vertex after vertex.

@@ -10,11 +10,11 @@ mod pieces;
 mod port;
 
 use super::attributes::Corners;
-use super::chain::{Fate, Work as Done};
+use super::chain::{Fate, Flow, Work as Done};
 use super::clock::{Clock, Fetch};
 use super::edges::{EdgeDatabase, Held};
 use super::frame::FrameState;
-use super::pipeline::{Front, Pipeline};
+use super::pipeline::{Input, Make, Pipeline};
 use super::union::{Pass, Share, Shared, Site};
 use crate::config::Config;
 use crate::error::Result;
@@ -25,7 +25,6 @@ use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
 use rtl_model::patch::Patch;
 use rtl_model::port::Quantised;
-use rtl_model::strip::Topology;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -89,9 +88,24 @@ pub(super) struct DrawState {
     pub(super) edges: Option<(u64, u64)>,
     /// What its patches share, where their lists are unified.
     pub(super) shared: Option<Shared>,
+    /// Bytes that a hull shader hands on for a patch (unit `d3d11`).
+    pub(super) hull_bytes: u32,
 }
 
 impl DrawState {
+    /// What a pipeline is told of each of its patches, without the patch itself.
+    fn input<'a>(&'a self, patch: &'a Patch, shaded: &'a [[f32; 4]; 16]) -> Input<'a> {
+        Input {
+            patch,
+            seen: patch,
+            shaded,
+            state: &self.state,
+            share: None,
+            components: self.attributes.as_ref().map_or(0, |a| a.table.components() as u64),
+            hull_bytes: self.hull_bytes,
+        }
+    }
+
     fn measures(&self) -> bool {
         self.shared.as_ref().is_some_and(|shared| shared.pass == Pass::Measure)
     }
@@ -126,6 +140,8 @@ pub(super) struct Batch {
     quantised: Vec<Quantised>,
     /// The same points in clip space, where the unit works in object space: what the driver sees.
     seen: Vec<Quantised>,
+    /// The same points as the shaders have them, where the unit goes on in f32.
+    clip: Vec<[f32; 4]>,
     spans: Vec<Span>,
     patches: Vec<Pending>,
     draws: Vec<DrawState>,
@@ -208,17 +224,17 @@ impl Batch {
     ///
     /// # Errors
     /// The sink's.
-    pub(super) fn flush<F: Front>(
+    pub(super) fn flush<M: Make>(
         &mut self,
         config: &Config,
         frame: &FrameState,
         sink: Option<&mut dyn Sink>,
         counters: &mut Counters,
-        clock: &mut Clock<F::Lists>,
+        clock: &mut Clock<M::Lists>,
     ) -> Result<Vec<Tally>> {
         self.quantise(config, frame, counters);
         let mut edges = std::mem::take(&mut self.edges);
-        let mut work = Work::<F> { batch: self, config, frame, measured: Vec::new() };
+        let mut work = Work::<M> { batch: self, config, frame, measured: Vec::new() };
         work.measure(counters);
         let (batch, edges_now) = (&*self, &mut edges);
         let mut timed = Timing::new(batch, clock, edges_now);
@@ -242,7 +258,7 @@ impl Batch {
 }
 
 /// Puts patches and commands on the clock, in the order of the trace.
-struct Timing<'a, T: Topology> {
+struct Timing<'a, T: Flow> {
     batch: &'a Batch,
     clock: &'a mut Clock<T>,
     edges: &'a mut EdgeDatabase,
@@ -252,7 +268,7 @@ struct Timing<'a, T: Topology> {
     commands: usize,
 }
 
-impl<'a, T: Topology> Timing<'a, T> {
+impl<'a, T: Flow> Timing<'a, T> {
     fn new(batch: &'a Batch, clock: &'a mut Clock<T>, edges: &'a mut EdgeDatabase) -> Self {
         Self { batch, clock, edges, held: Held::default(), patches: 0, commands: 0 }
     }
@@ -263,8 +279,7 @@ impl<'a, T: Topology> Timing<'a, T> {
             let patch = &self.batch.patches[self.patches];
             let draw = &self.batch.draws[patch.draw as usize];
             if let Some(size) = draw.edges {
-                let vertices = || [0, 1, 2, 3].map(|edge| work.lists.edge(edge) as u64 + 1);
-                let kept = (work.fate == Fate::Kept).then(vertices);
+                let kept = (work.fate == Fate::Kept).then(|| work.lists.edges());
                 let held = self.edges.pass(size, patch.site, kept);
                 self.held.shared += held.shared;
                 self.held.entries = self.held.entries.max(held.entries);
@@ -286,27 +301,29 @@ impl<'a, T: Topology> Timing<'a, T> {
 }
 
 /// A batch whose points are quantised.
-struct Work<'a, F: Front> {
+struct Work<'a, M: Make> {
     batch: &'a Batch,
     config: &'a Config,
     frame: &'a FrameState,
     /// What became of the patches that are only measured, patch by patch; empty where none is.
-    measured: Vec<Option<Done<F::Lists>>>,
+    measured: Vec<Option<Done<M::Lists>>>,
 }
 
-impl<F: Front> Work<'_, F> {
+impl<M: Make> Work<'_, M> {
     /// The patches that are only measured, before all others.
     fn measure(&mut self, counters: &mut Counters) {
         let Batch { patches, draws, .. } = self.batch;
         if !draws.iter().any(DrawState::measures) {
             return;
         }
-        let measure = |pipeline: &mut Pipeline<'_, F>, part: &[Pending]| {
+        let measure = |pipeline: &mut Pipeline<'_, M>, part: &[Pending]| {
             let one = |pending: &Pending| {
                 let draw = &draws[pending.draw as usize];
                 let shared = draw.shared.as_ref().filter(|_| draw.measures())?;
                 let patch = self.gather(pending, draw, &self.batch.quantised);
-                pipeline.measure(&patch, &draw.state, Share { shared, site: pending.site });
+                let share = Some(Share { shared, site: pending.site });
+                let input = Input { share, ..draw.input(&patch, &[[0.0; 4]; 16]) };
+                pipeline.measure(&input);
                 Some(pipeline.work)
             };
             let done: Vec<_> = part.iter().map(one).collect();
@@ -323,9 +340,9 @@ impl<F: Front> Work<'_, F> {
     }
 
     /// Counters only.
-    fn count(&self, counters: &mut Counters, timed: &mut Timing<'_, F::Lists>) -> Vec<Tally> {
+    fn count(&self, counters: &mut Counters, timed: &mut Timing<'_, M::Lists>) -> Vec<Tally> {
         let all = &self.batch.patches;
-        let parts: Vec<Pieces<F::Lists>> = all
+        let parts: Vec<Pieces<M::Lists>> = all
             .par_chunks(GRAIN)
             .enumerate()
             .map_init(|| self.pipeline(), |p, (k, part)| self.run(p, k * GRAIN, part, false))
@@ -343,12 +360,12 @@ impl<F: Front> Work<'_, F> {
         &self,
         sink: &mut dyn Sink,
         counters: &mut Counters,
-        timed: &mut Timing<'_, F::Lists>,
+        timed: &mut Timing<'_, M::Lists>,
     ) -> Result<Vec<Tally>> {
         let mut tallies = Vec::new();
         for (n, wave) in self.batch.patches.chunks(WAVE).enumerate() {
             let first = |k: usize| n * WAVE + k * GRAIN;
-            let parts: Vec<Pieces<F::Lists>> = wave
+            let parts: Vec<Pieces<M::Lists>> = wave
                 .par_chunks(GRAIN)
                 .enumerate()
                 .map_init(|| self.pipeline(), |p, (k, part)| self.run(p, first(k), part, true))
@@ -362,18 +379,18 @@ impl<F: Front> Work<'_, F> {
         Ok(tallies)
     }
 
-    fn pipeline(&self) -> Pipeline<'_, F> {
+    fn pipeline(&self) -> Pipeline<'_, M> {
         Pipeline::new(self.config, self.frame)
     }
 
     /// Some patches that stand together, from the batch's patch `first` on.
     fn run(
         &self,
-        pipeline: &mut Pipeline<'_, F>,
+        pipeline: &mut Pipeline<'_, M>,
         first: usize,
         patches: &[Pending],
         keep: bool,
-    ) -> Pieces<F::Lists> {
+    ) -> Pieces<M::Lists> {
         let mut pieces = Pieces::default();
         for (number, pending) in (first..).zip(patches) {
             if let Some(&Some(measured)) = self.measured.get(number) {
@@ -383,14 +400,14 @@ impl<F: Front> Work<'_, F> {
             let draw = &self.batch.draws[pending.draw as usize];
             let share = draw.shared.as_ref().map(|shared| Share { shared, site: pending.site });
             let patch = self.gather(pending, draw, &self.batch.quantised);
-            let seen =
-                (!self.batch.seen.is_empty()).then(|| self.gather(pending, draw, &self.batch.seen));
+            let batch = self.batch;
+            let seen = (!batch.seen.is_empty()).then(|| self.gather(pending, draw, &batch.seen));
             let seen = seen.as_ref().unwrap_or(&patch);
-            if pipeline.accept(&patch, seen, &draw.state, share) {
+            let shaded = pending.indices.map(|i| batch.clip.get(i as usize).copied());
+            let shaded = shaded.map(Option::unwrap_or_default);
+            let input = Input { seen, share, ..draw.input(&patch, &shaded) };
+            if pipeline.accept(&input) {
                 pieces.tally(draw.number, pipeline);
-                if let Some(attributes) = &draw.attributes {
-                    attributes.count(self.config, pipeline);
-                }
                 if keep {
                     pieces.keep(pending, draw, pipeline, self.config.attributes.rounding);
                 }

@@ -5,21 +5,61 @@
 //! blocks say what that costs.
 
 mod block;
+mod d3d11;
+mod surface;
 
 use crate::config::{Channels, Config, Unit};
 use crate::link::schedule::{LinkSchedule, MemorySchedule, Parcel};
-use crate::link::wire::Wire;
 use rtl_model::counter::Block as Name;
 use rtl_model::level;
 use rtl_model::patch::Triangle;
-use rtl_model::strip::{Strip, Topology};
-use rtl_model::time::{Block, Cost, Emit, Shape, Visitor};
-use rtl_model::{emit, evaluate, stitch};
+use rtl_model::strip::Strip;
+use rtl_model::time::{Block, Shape};
+use std::fmt;
 
-use block::{
-    Assemble, Backface, Clip, EmitBlock, Evaluate, Level, Link, Memory, Of, Place, Points, Steady,
-    Stitch, Store, VertexShader,
-};
+/// An enum of the blocks that stand in one chain, each by the name of what it makes of a token.
+macro_rules! chain_of {
+    (
+        $(#[$doc:meta])* $name:ident [$($arguments:tt)*] [$($bounds:tt)*] $lists:ty;
+        $($kind:ident),* $(,)?
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug)]
+        pub(in crate::unit) enum $name<$($arguments)*> {
+            $($kind(Of<$kind, $lists>),)*
+        }
+
+        impl<$($bounds)*> Block for $name<$($arguments)*> {
+            type Token = Token<$lists>;
+
+            #[inline]
+            fn accept(
+                &mut self,
+                token: &Token<$lists>,
+                out: &mut impl Emit<Token<$lists>>,
+            ) -> Cost {
+                match self {
+                    $(Self::$kind(block) => block.accept(token, out),)*
+                }
+            }
+
+            fn port(&self, token: &Token<$lists>) -> Option<u64> {
+                match self {
+                    $(Self::$kind(block) => block.port(token),)*
+                }
+            }
+
+            fn visit(&mut self, visitor: impl Visitor<Token<$lists>>) {
+                match self {
+                    $(Self::$kind(block) => visitor.visit(block),)*
+                }
+            }
+        }
+    };
+}
+
+use chain_of;
+use d3d11::Wave;
 
 /// Levels of a patch: four edges and two interior directions.
 const LEVELS: u16 = 6;
@@ -53,20 +93,35 @@ pub(super) struct Work<T> {
     pub(super) lists: T,
 }
 
-impl<T: Topology> Work<T> {
+impl<T: Flow> Work<T> {
     /// A patch that was clipped: no block behind has seen it.
-    pub(super) fn clipped() -> Self {
-        let lists = T::default();
+    pub(super) fn clipped(lists: T) -> Self {
         Self { fate: Fate::Clipped, tested: false, levels: 0, reciprocals: 0, lists }
     }
 
     /// Vertices and triangles that came of it.
     pub(super) fn made(&self) -> [u64; 2] {
-        if self.fate != Fate::Kept {
-            return [0; 2];
-        }
-        [self.lists.vertices() as u64, self.lists.triangles() as u64]
+        if self.fate == Fate::Kept { self.lists.made() } else { [0; 2] }
     }
+}
+
+/// What the triangles of a patch depend on, and through it the chain of units whose patches have
+/// such lists.
+pub(super) trait Flow: Copy + Default + Eq + Send + Sync + fmt::Debug + 'static {
+    /// A block of the chain.
+    type Stage: Block<Token = Token<Self>>;
+
+    /// The block of that name.
+    ///
+    /// # Panics
+    /// When it is not in this chain.
+    fn stage(block: Name, config: &Config) -> Self::Stage;
+
+    /// Vertices and triangles of a patch.
+    fn made(&self) -> [u64; 2];
+
+    /// Vertices of the edges v0, u1, v1, u0, each with both its ends.
+    fn edges(&self) -> [u64; 4];
 }
 
 /// Levels that a criterion computes for a patch.
@@ -96,125 +151,53 @@ pub(super) enum Token<T> {
     Triangle(Triangle, bool),
     /// Emit to the vertex shader.
     Vertex,
-}
-
-/// A block of a chain.
-#[derive(Clone, Debug)]
-pub(super) enum Stage<T> {
-    Link(Of<Link, T>),
-    Memory(Of<Memory, T>),
-    Points(Of<Points, T>),
-    Assemble(Of<Assemble, T>),
-    Clip(Of<Clip, T>),
-    Backface(Of<Backface, T>),
-    Level(Of<Level, T>),
-    Place(Of<Place, T>),
-    Evaluate(Of<Evaluate, T>),
-    Stitch(Of<Stitch, T>),
-    Emit(Of<EmitBlock, T>),
-    VertexShader(Of<VertexShader, T>),
-}
-
-/// `$body` of the block that `$stage` is.
-macro_rules! of_kind {
-    ($stage:expr, $block:ident => $body:expr) => {
-        match $stage {
-            Stage::Link($block) => $body,
-            Stage::Memory($block) => $body,
-            Stage::Points($block) => $body,
-            Stage::Assemble($block) => $body,
-            Stage::Clip($block) => $body,
-            Stage::Backface($block) => $body,
-            Stage::Level($block) => $body,
-            Stage::Place($block) => $body,
-            Stage::Evaluate($block) => $body,
-            Stage::Stitch($block) => $body,
-            Stage::Emit($block) => $body,
-            Stage::VertexShader($block) => $body,
-        }
-    };
-}
-
-impl<T: Topology> Block for Stage<T> {
-    type Token = Token<T>;
-
-    #[inline]
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        of_kind!(self, block => block.accept(token, out))
-    }
-
-    fn port(&self, token: &Token<T>) -> Option<u64> {
-        of_kind!(self, block => block.port(token))
-    }
-
-    fn visit(&mut self, visitor: impl Visitor<Token<T>>) {
-        of_kind!(self, block => visitor.visit(block));
-    }
+    /// Connectivity to the domain shader and on to emit (unit `d3d11`).
+    Wave(Wave),
 }
 
 /// The timed blocks of a unit, in the order of the data.
 pub(super) fn blocks(unit: Unit) -> &'static [Name] {
     match unit {
         Unit::Hybrid | Unit::Sfarti | Unit::Moreton => &super::blocks(unit)[1..], // all but trace
+        Unit::D3d11 => &[
+            Name::Link,
+            Name::Memory,
+            Name::Assemble,
+            Name::Hull,
+            Name::Factors,
+            Name::Points,
+            Name::Connect,
+            Name::Domain,
+            Name::Emit,
+        ],
         Unit::Triangles => &[Name::Link, Name::VertexShader],
     }
 }
 
-/// The chain of the configured unit.
-pub(super) fn stages<T: Topology>(config: &Config) -> Vec<(Stage<T>, Shape)> {
-    blocks(config.unit).iter().map(|&block| stage(block, config)).collect()
+/// How a block of the configured unit stands in its chain.
+fn shape(block: Name, config: &Config) -> Shape {
+    let shared = config.memory.channels == Channels::Shared;
+    match (block, config.costs(block)) {
+        (Name::Link, _) => LinkSchedule::new(config).shape(),
+        (Name::Memory, _) => MemorySchedule::new(config).shape(),
+        (_, None) => unreachable!("{block:?} is in no chain"),
+        (_, Some(costs)) => {
+            let to_memory = match block {
+                Name::VertexShader => config.vertex_shader.to_memory,
+                Name::Hull | Name::Domain => config.hull.to_memory,
+                _ => false,
+            };
+            Shape { shares_port: shared && to_memory, ..costs.shape() }
+        }
+    }
 }
 
-fn stage<T: Topology>(block: Name, config: &Config) -> (Stage<T>, Shape) {
-    let Some(costs) = config.costs(block) else {
-        return if block == Name::Link {
-            let link = LinkSchedule::new(config);
-            let shape = link.shape();
-            (Stage::Link(Of::new(Link(link))), shape)
-        } else {
-            let memory = MemorySchedule::new(config);
-            let shape = memory.shape();
-            (Stage::Memory(Of::new(Memory(memory))), shape)
-        };
-    };
-    let steady = Steady::of(&costs);
-    let mut shape = costs.shape();
-    let stage = match block {
-        Name::Transform | Name::Port => Stage::Points(Of::new(Points(steady))),
-        Name::Assemble => Stage::Assemble(Of::new(Assemble(steady))),
-        Name::Clip => Stage::Clip(Of::new(Clip(steady, config.clip.enabled))),
-        Name::Backface => Stage::Backface(Of::new(Backface(steady))),
-        Name::Level => Stage::Level(Of::new(Level(steady))),
-        Name::Place => Stage::Place(Of::new(Place(steady))),
-        Name::Evaluate => Stage::Evaluate(Of::new(Evaluate(evaluate::Schedule {
-            interval: costs.interval,
-            latency: costs.latency,
-            setup: config.block.evaluate.setup,
-            scheme: config.scheme(),
-        }))),
-        Name::Stitch => {
-            let (interval, latency) = (costs.interval, costs.latency);
-            Stage::Stitch(Of::new(Stitch(stitch::Schedule { interval, latency })))
-        }
-        Name::Emit => {
-            Stage::Emit(Of::new(EmitBlock(emit::Schedule::new(costs.interval, costs.latency))))
-        }
-        Name::VertexShader => {
-            let store = store(config);
-            shape.shares_port = store.as_ref().is_some_and(|store| store.shared);
-            Stage::VertexShader(Of::new(VertexShader(steady, store)))
-        }
-        Name::Trace | Name::Link | Name::Memory | Name::Unit => {
-            unreachable!("{block:?} has no costs")
-        }
-    };
-    (stage, shape)
+/// The shapes of the configured unit's chain.
+pub(super) fn shapes(config: &Config) -> impl Iterator<Item = (Name, Shape)> {
+    blocks(config.unit).iter().map(|&block| (block, shape(block, config)))
 }
 
-fn store(config: &Config) -> Option<Store> {
-    config.vertex_shader.to_memory.then(|| Store {
-        writes: Wire::new(config.memory.bandwidth_mb_s, config.clock_mhz),
-        bytes: config.vertex_shader.bytes_out.into(),
-        shared: config.memory.channels == Channels::Shared,
-    })
+/// The chain of the configured unit, which must be one of those whose patches have such lists.
+pub(super) fn stages<T: Flow>(config: &Config) -> Vec<(T::Stage, Shape)> {
+    shapes(config).map(|(block, shape)| (T::stage(block, config), shape)).collect()
 }

@@ -1,14 +1,15 @@
 //! The clock of a run: what the host sends goes in, in the order of the trace; the engine that the
 //! configuration names times it.
 
-use super::chain::{self, Stage, Token, Work};
+use super::chain::{self, Flow, Token, Work};
+use super::d3d11::Pattern;
 use crate::config::{Config, Engine, TransferMode};
 use crate::link::Transfer;
 use crate::link::framing::Pieces;
 use crate::link::schedule::Parcel;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::patch::Lists;
-use rtl_model::strip::{Segments, Topology};
+use rtl_model::strip::Segments;
 use rtl_model::time::Times;
 use rtl_model::time::ordered::Ordered;
 use rtl_model::time::stepped::Stepped;
@@ -18,7 +19,7 @@ use rtl_model::time::timed::Timed;
 const PARCEL_MAX: u64 = 1 << 30;
 
 /// The clock.
-pub(super) struct Clock<T: Topology> {
+pub(super) struct Clock<T: Flow> {
     config: Config,
     engine: Running<T>,
     /// The command that is being sent.
@@ -48,20 +49,23 @@ impl Sent {
         let link = counters.get(Counter::LinkTotal);
         assert_eq!(self.link_bytes, link, "bytes timed on the link, and bytes counted");
         if !config.unit.host_tessellates() {
-            let memory = counters.get(Counter::MemoryBursts) * u64::from(config.memory.burst);
+            // What shaders move themselves is timed with them.
+            let bursts =
+                counters.get(Counter::MemoryBursts) - counters.get(Counter::MemoryPatchBursts);
+            let memory = bursts * u64::from(config.memory.burst);
             assert_eq!(self.memory_bytes, memory, "bytes timed in memory, and bytes counted");
         }
     }
 }
 
-enum Running<T: Topology> {
+enum Running<T: Flow> {
     None,
     /// Keeps what the host sends.
     Recording(Tokens<T>),
-    Timed(Box<Timed<Stage<T>>>),
+    Timed(Box<Timed<T::Stage>>),
     /// Where stages share a memory port, who gets it depends on the order of time.
-    Ordered(Box<Ordered<Stage<T>>>),
-    Stepped(Box<Stepped<Stage<T>>>),
+    Ordered(Box<Ordered<T::Stage>>),
+    Stepped(Box<Stepped<T::Stage>>),
 }
 
 /// Control points of a patch that come from memory or from on chip.
@@ -80,7 +84,7 @@ pub(super) struct Tokens<T> {
     frame: Vec<Token<T>>,
 }
 
-impl<T: Topology> Tokens<T> {
+impl<T: Flow> Tokens<T> {
     fn replay(&self, config: &Config) -> Option<Times> {
         let mut engine = Running::new(config);
         for frame in &self.frames {
@@ -104,6 +108,7 @@ pub struct Recording(pub(super) Recorded);
 pub(super) enum Recorded {
     Fractional(Tokens<Segments>),
     Dyadic(Tokens<Lists>),
+    D3d11(Tokens<Pattern>),
 }
 
 impl Recording {
@@ -114,6 +119,7 @@ impl Recording {
         match &self.0 {
             Recorded::Fractional(tokens) => tokens.replay(config),
             Recorded::Dyadic(tokens) => tokens.replay(config),
+            Recorded::D3d11(tokens) => tokens.replay(config),
         }
     }
 
@@ -123,13 +129,14 @@ impl Recording {
         match &self.0 {
             Recorded::Fractional(tokens) => tokens.len(),
             Recorded::Dyadic(tokens) => tokens.len(),
+            Recorded::D3d11(tokens) => tokens.len(),
         }
     }
 }
 
-impl<T: Topology> Running<T> {
+impl<T: Flow> Running<T> {
     fn new(config: &Config) -> Self {
-        let chain = chain::stages(config);
+        let chain = chain::stages::<T>(config);
         let shared = chain.iter().any(|(_, shape)| shape.shares_port);
         match config.engine {
             Engine::None => Self::None,
@@ -174,7 +181,7 @@ impl<T: Topology> Running<T> {
     }
 }
 
-impl<T: Topology> Clock<T> {
+impl<T: Flow> Clock<T> {
     pub(super) fn new(config: &Config) -> Self {
         Self::with(config, Running::new(config))
     }

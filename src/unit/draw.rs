@@ -5,8 +5,9 @@
 
 use super::attributes::Corners;
 use super::batch::DrawState;
+use super::d3d11;
 use super::fetch::{Brought, Instance, Source};
-use super::pipeline::Front;
+use super::pipeline::Make;
 use super::run::Run;
 use super::union::{Pass, Shared, Site, Unions};
 use crate::config::{Config, Union};
@@ -49,15 +50,17 @@ struct Placed {
 /// An instance whose blocks are all in the batch: its spans, and where its points are.
 type Whole = (Range<usize>, Placed);
 
-impl<F: Front> Run<'_, F> {
+impl<M: Make> Run<'_, M> {
     /// Carries out a draw.
     pub(super) fn draw(&mut self, draw: &Draw) -> Result<()> {
         let frame = self.frame.expect("the reader refuses a draw before any frame");
         let known = "the reader refuses unknown ids";
         let points = self.points.get(&draw.points).expect(known).clone();
         let attributes = draw.attributes.map(|id| self.attributes.get(&id).expect(known).clone());
-        let source = Source { draw, points, attributes };
+        let indexed = link::is_indexed(self.config.unit, draw);
+        let source = Source { draw, points, attributes, indexed };
         self.begin_draw(&source)?;
+        let surfaces = self.config.unit.has_surface_primitives();
         let state = DrawState {
             number: self.draws.len() as u32 - 1,
             cull: draw.cull,
@@ -66,8 +69,9 @@ impl<F: Front> Run<'_, F> {
             to_world: frame.to_world,
             vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
             attributes: source.attributes.clone(),
-            edges: draw.primitive.shares_edges().then(|| draw.primitive.size()),
+            edges: (surfaces && draw.primitive.shares_edges()).then(|| draw.primitive.size()),
             shared: None,
+            hull_bytes: d3d11::hull_bytes(source.components(), self.config) as u32, // < 2^16
         };
         // What the first of two passes takes.
         let bare = Source { points: source.points.clone(), attributes: None, ..source };
@@ -148,10 +152,12 @@ impl<F: Front> Run<'_, F> {
             counters.add(Counter::AssembleMeasured, patches);
             counters.add(Counter::PlaceListsPeak, rows + columns);
         }
-        counters.add(Counter::AssembleEdgePeak, primitive.edge_entries_peak());
-        counters.add(Counter::AssembleEdgeLifetime, primitive.edge_lifetime_peak());
-        if attributes.is_some() {
-            counters.add(Counter::AssembleCornerPeak, primitive.corner_entries_peak());
+        if self.config.unit.has_surface_primitives() {
+            counters.add(Counter::AssembleEdgePeak, primitive.edge_entries_peak());
+            counters.add(Counter::AssembleEdgeLifetime, primitive.edge_lifetime_peak());
+            if attributes.is_some() {
+                counters.add(Counter::AssembleCornerPeak, primitive.corner_entries_peak());
+            }
         }
         let transfer = link::host_draw(draw);
         self.draws.push((transfer, vertex_bytes(attributes.as_deref(), self.config)));
@@ -205,6 +211,14 @@ impl<F: Front> Run<'_, F> {
             Ok(())
         };
         let later = u64::from(column > 0);
+        if source.indexed {
+            let across = draw.primitive.size().1;
+            let of = |row| (column..column + columns).map(move |column| row * across + column);
+            let rows: Vec<_> =
+                (row..row + rows).flat_map(of).map(|number| source.row(number)).collect();
+            let indexed = self.gather(source, &rows, instance)?;
+            return Ok(Placed { base, indexed });
+        }
         match draw.primitive {
             Primitive::Patches { .. } => run(16 * column, 16 * columns, 0)?,
             Primitive::Strip { .. } => run(12 * column, 4 * (3 * columns + 1), 4 * later)?,
@@ -224,12 +238,7 @@ impl<F: Front> Run<'_, F> {
                     run(line * stride + 3 * column, width, repeated)?;
                 }
             }
-            Primitive::Indexed { .. } => {
-                let indices = draw.indices.as_deref().expect("an indexed mesh has indices");
-                let rows = &indices.points[column as usize..(column + columns) as usize];
-                let indexed = self.gather(source, rows, instance)?;
-                return Ok(Placed { base, indexed });
-            }
+            Primitive::Indexed { .. } => unreachable!("an indexed mesh is indexed"),
         }
         Ok(Placed { base, indexed: Vec::new() })
     }

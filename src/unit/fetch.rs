@@ -5,7 +5,8 @@
 use super::attributes::{Corners, NO_CORNERS};
 use super::batch::DrawState;
 use super::clock::Fetch;
-use crate::config::{Config, Memory};
+use super::d3d11;
+use crate::config::{Config, Memory, Unit};
 use crate::link::{self, Bursts};
 use crate::trace::command::{Draw, Points};
 use glam::Mat4;
@@ -21,6 +22,8 @@ pub(super) struct Source<'a> {
     pub(super) draw: &'a Draw,
     pub(super) points: Points,
     pub(super) attributes: Option<Arc<Corners>>,
+    /// Whether its patches name their points and corners by indices.
+    pub(super) indexed: bool,
 }
 
 /// What one instance has fetched so far.
@@ -54,6 +57,19 @@ impl Brought {
 }
 
 impl Source<'_> {
+    /// The points of patch `number`.
+    pub(super) fn row(&self, number: u64) -> [u32; 16] {
+        match &self.draw.indices {
+            Some(indices) => indices.points[number as usize],
+            None => self.draw.primitive.indices(number).map(|point| point as u32), // in memory
+        }
+    }
+
+    /// Components of the attributes of a vertex.
+    pub(super) fn components(&self) -> u64 {
+        self.attributes.as_ref().map_or(0, |corners| corners.table.components() as u64)
+    }
+
     /// The corners of patch `number`, where it has attributes.
     pub(super) fn corners(&self, number: u64) -> [u32; 4] {
         match (&self.attributes, &self.draw.indices) {
@@ -106,13 +122,13 @@ impl Instance {
             return 0;
         }
         let (bytes, memory) = (link::point_bytes(&source.points), &config.memory);
-        match (brought, &source.draw.indices) {
-            (Brought::Missed(missed), Some(indices)) => {
-                let row = indices.points[number as usize].iter().enumerate();
-                let missed = row.filter(|(k, _)| missed >> k & 1 == 1);
+        match brought {
+            Brought::Missed(missed) => {
+                let row = source.row(number);
+                let missed = row.iter().enumerate().filter(|(k, _)| missed >> k & 1 == 1);
                 missed.map(|(_, &i)| self.points.next(u64::from(i) * bytes, bytes, memory)).sum()
             }
-            _ => self.points.next(self.points.bytes(), brought.points() * bytes, memory),
+            Brought::Next(points) => self.points.next(self.points.bytes(), points * bytes, memory),
         }
     }
 
@@ -120,7 +136,7 @@ impl Instance {
     fn corners(&mut self, source: &Source<'_>, number: u64, memory: &Memory) -> u64 {
         let Some(Corners { table, resident, .. }) = source.attributes.as_deref() else { return 0 };
         let bytes = table.corner_bytes();
-        let indexed = source.draw.indices.is_some();
+        let indexed = source.indexed;
         let received = if indexed { 4 } else { source.draw.primitive.corners_received(number) };
         self.received[1] += received;
         match (resident, indexed) {
@@ -135,7 +151,7 @@ impl Instance {
 
     /// What the instance brought.
     pub(super) fn count(&self, source: &Source<'_>, config: &Config, counters: &mut Counters) {
-        let Source { draw, points, attributes } = source;
+        let Source { draw, points, attributes, indexed } = source;
         let patches = draw.primitive.patches();
         let [received, corners, whole] = self.received;
         if !config.unit.in_object_space() {
@@ -143,12 +159,17 @@ impl Instance {
             counters.add(Counter::TransformBytesIn, received * link::point_bytes(points));
             counters.add(Counter::TransformBytesOut, received * SHADED_POINT);
         }
+        if config.unit == Unit::D3d11 {
+            let corners = attributes.as_ref().map_or(0, |a| 4 * a.table.corner_bytes());
+            let bytes_in = 16 * link::point_bytes(points) + corners;
+            d3d11::count_hull(patches, bytes_in, source.components(), config, counters);
+        }
         counters.add(Counter::AssembleReceived, received);
         counters.add(Counter::AssembleReused, 16 * patches - received);
         counters.add(Counter::AssembleWhole, whole);
         if points.resident {
             counters.add(Counter::MemoryReadControlPoints, self.points.bytes());
-            let uncached = if draw.indices.is_some() { 16 * patches } else { received };
+            let uncached = if *indexed { 16 * patches } else { received };
             let bytes = uncached * link::point_bytes(points);
             counters.add(Counter::MemoryUncachedControlPoints, bytes);
             self.points.count(&config.memory, counters);

@@ -6,7 +6,8 @@
 //! ```
 
 use super::chain;
-use super::pipeline::{Front, Placed, Placing};
+use super::pipeline::{Placed, Placing};
+use super::surface::Front;
 use rtl_model::level;
 use rtl_model::place::{List, Placement, Segments};
 
@@ -19,12 +20,13 @@ impl Front for Hybrid {
     const CULLS: bool = true;
 
     fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
-        let (levels, events) = level::accept(work.patch, work.view, work.state);
+        let (levels, events) = level::accept(work.input.seen, work.view, work.input.state);
         placement.set(&levels);
         Placed {
             lists: placement.segments(),
             events,
-            levels: chain::levels(work.state.criterion),
+            criterion: work.input.state.criterion,
+            levels: chain::levels(work.input.state.criterion),
             reciprocals: placement.reciprocals() as u8, // at most 6
         }
     }

@@ -3,8 +3,8 @@
 //! Commands come in, triangles stream into a sink, counters come out. `run` carries out the
 //! commands, `frame` derives what is constant over a frame, `draw` and `fetch` say where a draw's
 //! patches get their points, `batch` collects patches and spreads them over the threads, `pipeline`
-//! takes one patch through the blocks, of which `hybrid`, `sfarti` and `moreton` each have some of
-//! their own. `union` holds the lists that patches of a primitive share, `edges` what it keeps of
+//! takes one patch through the blocks: through lists of parameters (`surface`), of which `hybrid`,
+//! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11`. `union` holds the lists that patches of a primitive share, `edges` what it keeps of
 //! their edges; `chain` and `clock` put it all on the clock; `tokens` and `arithmetic` say from a
 //! frame's counters what flowed and what it took.
 
@@ -13,6 +13,7 @@ mod attributes;
 mod batch;
 mod chain;
 mod clock;
+mod d3d11;
 mod draw;
 mod edges;
 mod fetch;
@@ -24,6 +25,7 @@ mod pipeline;
 mod run;
 mod sfarti;
 mod state;
+mod surface;
 mod tokens;
 mod union;
 
@@ -39,11 +41,13 @@ pub use clock::Recording;
 pub use frame::FrameState;
 
 use clock::{Recorded, Tokens};
+use d3d11::D3d11;
 use hybrid::Hybrid;
 use moreton::Moreton;
-use pipeline::Front;
+use pipeline::Make;
 use run::Run;
 use sfarti::Sfarti;
+use surface::Surface;
 
 /// Carries out the commands of a trace on the configured unit, in the current rayon pool; any
 /// number of threads gives the same bytes.
@@ -62,16 +66,19 @@ pub fn simulate(
 ) -> Result<Report> {
     config.check()?;
     match config.unit {
-        Unit::Hybrid | Unit::Triangles => carry_out(Run::<Hybrid>::new(config, sink), commands),
-        Unit::Sfarti => carry_out(Run::<Sfarti>::new(config, sink), commands),
-        Unit::Moreton => carry_out(Run::<Moreton>::new(config, sink), commands),
+        Unit::Hybrid | Unit::Triangles => carry_out::<Surface<Hybrid>>(commands, config, sink),
+        Unit::Sfarti => carry_out::<Surface<Sfarti>>(commands, config, sink),
+        Unit::Moreton => carry_out::<Surface<Moreton>>(commands, config, sink),
+        Unit::D3d11 => carry_out::<D3d11>(commands, config, sink),
     }
 }
 
-fn carry_out<F: Front>(
-    mut run: Run<'_, F>,
+fn carry_out<M: Make>(
     commands: impl Iterator<Item = Result<Command>>,
+    config: &Config,
+    sink: &mut dyn Sink,
 ) -> Result<Report> {
+    let mut run = Run::<M>::new(config, sink);
     for command in commands {
         run.command(&command?)?;
     }
@@ -92,19 +99,20 @@ pub fn record(
     config.check()?;
     Ok(Recording(match config.unit {
         Unit::Hybrid | Unit::Triangles => {
-            Recorded::Fractional(recorded::<Hybrid>(commands, config)?)
+            Recorded::Fractional(recorded::<Surface<Hybrid>>(commands, config)?)
         }
-        Unit::Sfarti => Recorded::Dyadic(recorded::<Sfarti>(commands, config)?),
-        Unit::Moreton => Recorded::Fractional(recorded::<Moreton>(commands, config)?),
+        Unit::Sfarti => Recorded::Dyadic(recorded::<Surface<Sfarti>>(commands, config)?),
+        Unit::Moreton => Recorded::Fractional(recorded::<Surface<Moreton>>(commands, config)?),
+        Unit::D3d11 => Recorded::D3d11(recorded::<D3d11>(commands, config)?),
     }))
 }
 
-fn recorded<F: Front>(
+fn recorded<M: Make>(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,
-) -> Result<Tokens<F::Lists>> {
+) -> Result<Tokens<M::Lists>> {
     let mut sink = NoMesh;
-    let mut run = Run::<F>::recording(config, &mut sink);
+    let mut run = Run::<M>::recording(config, &mut sink);
     for command in commands {
         run.command(&command?)?;
     }
@@ -143,6 +151,21 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
             Block::Emit,
             Block::VertexShader,
         ],
+        Unit::D3d11 => &[
+            Block::Trace,
+            Block::Link,
+            Block::Memory,
+            Block::Assemble,
+            Block::Hull,
+            Block::Clip,
+            Block::Backface,
+            Block::Level,
+            Block::Factors,
+            Block::Points,
+            Block::Connect,
+            Block::Domain,
+            Block::Emit,
+        ],
         Unit::Triangles => &[Block::Trace, Block::Link, Block::Emit, Block::VertexShader],
     }
 }
@@ -150,10 +173,7 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
 /// The blocks of the configured unit that time is laid over, in the order of the data.
 #[must_use]
 pub fn chain(config: &Config) -> Vec<Stage> {
-    let blocks = chain::blocks(config.unit).iter();
-    // Shapes do not depend on what flows.
-    let stages = chain::stages::<rtl_model::place::Segments>(config).into_iter();
-    blocks.zip(stages).map(|(&block, (_, shape))| Stage { block, shape }).collect()
+    chain::shapes(config).map(|(block, shape)| Stage { block, shape }).collect()
 }
 
 /// What each block of the chain did in a frame with these counters, in which the host sent so many

@@ -11,7 +11,8 @@
 //! units differ in what they do and not in how fine they are asked to be. The interior's level
 //! along an axis is the greater of the two edges across it: nothing else crosses the link.
 
-use super::pipeline::{Front, Placed, Placing};
+use super::pipeline::{Placed, Placing};
+use super::surface::Front;
 use rtl_model::level;
 use rtl_model::patch::Levels;
 use rtl_model::place::{List, Placement, Segments};
@@ -25,10 +26,11 @@ impl Front for Moreton {
     const CULLS: bool = false;
 
     fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
-        let (levels, events) = level::accept(work.patch, work.view, work.state);
+        let (levels, events) = level::accept(work.input.seen, work.view, work.input.state);
         let [v0, u1, v1, u0] = levels.edges;
         placement.set(&Levels { interior: [v0.max(v1), u1.max(u0)], ..levels });
         let reciprocals = placement.reciprocals() as u8; // at most 6
-        Placed { lists: placement.segments(), events, levels: 0, reciprocals }
+        let (lists, criterion) = (placement.segments(), work.input.state.criterion);
+        Placed { lists, events, criterion, levels: 0, reciprocals }
     }
 }

@@ -1,12 +1,12 @@
-//! Pipeline: one patch in, its vertices, screen positions and triangles out: what the units that
-//! tessellate have in common, around what each has of its own (`Front`).
+//! Pipeline: one patch in, its vertices, screen positions and triangles out: what all units have in
+//! common around what each makes of a patch (`Make`).
 //!
 //! ```text
-//!   patch ─► [clip ─► backface ─► level ─► place] ─► evaluate ─► stitch ─► emit ─► vertex shader
-//!             a front's own: which of these, how
+//!   patch ─► clip ─► backface ─► [levels, points, triangles] ─► emit ─► vertex shader
+//!                                 `surface`, or `d3d11`
 //! ```
 
-use super::chain::{Fate, Work};
+use super::chain::{Fate, Flow, Work};
 use super::frame::FrameState;
 use super::union::{Pass, Share};
 use crate::config::{Config, Normals};
@@ -14,41 +14,75 @@ use rtl_model::backface::{self, Verdict};
 use rtl_model::clip;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::emit::{self, Screen};
-use rtl_model::evaluate::{self, Evaluate};
 use rtl_model::level::{Criterion, Events, State};
-use rtl_model::number::Format;
 use rtl_model::patch::{Patch, Triangle, Vertex, View};
-use rtl_model::place::{Numbering, Parameters, Placement};
-use rtl_model::stitch::{Degenerate, Stitch};
-use rtl_model::strip::Topology;
 
-/// What a unit has of its own between the port and the evaluation of points.
-pub(super) trait Front: Send + Sync + 'static {
+/// What a unit makes of a patch that is in sight.
+pub(super) trait Make: Send + 'static {
     /// What the triangles of a patch depend on.
-    type Lists: Topology + 'static;
-    /// The parameters along one direction.
-    type List: Parameters + Send;
+    type Lists: Flow;
     /// Whether patches are clipped and culled.
     const CULLS: bool;
 
-    /// Chooses levels, places the vertices, and says what its blocks did for it.
-    fn place(work: Placing<'_>, placement: &mut Placement<Self::List>) -> Placed<Self::Lists>;
+    /// The blocks of a frame.
+    fn new(config: &Config, frame: &FrameState) -> Self;
+
+    /// What is known of a patch before it is placed.
+    fn enter(&self, _input: &Input<'_>) -> Self::Lists {
+        Self::Lists::default()
+    }
+
+    /// Counts a patch that is culled, where the unit does that itself.
+    fn cull(&self, _counters: &mut Counters) {}
+
+    /// Chooses levels and places the vertices.
+    fn place(&mut self, work: Placing<'_>, counters: &mut Counters) -> Placed<Self::Lists>;
+
+    /// Evaluates the vertices of the patch that was placed last, and joins them. Returns how many
+    /// leave for emit.
+    fn shape(
+        &mut self,
+        lists: Self::Lists,
+        input: &Input<'_>,
+        vertices: &mut Vec<Vertex>,
+        counters: &mut Counters,
+    ) -> u64;
+
+    /// Triangles of the last patch.
+    fn triangles(&self) -> &[Triangle];
+}
+
+/// A patch, and what its draw says of it.
+#[derive(Clone, Copy)]
+pub(super) struct Input<'a> {
+    /// What the unit works on.
+    pub(super) patch: &'a Patch,
+    /// What levels are chosen from: the same, but where they come from before the unit.
+    pub(super) seen: &'a Patch,
+    /// Its control points in clip space as the shaders have them, where a unit goes on in f32.
+    pub(super) shaded: &'a [[f32; 4]; 16],
+    pub(super) state: &'a State,
+    /// Its part in its primitive's unions, where it has one.
+    pub(super) share: Option<Share<'a>>,
+    /// Components of the attributes of a vertex.
+    pub(super) components: u64,
+    /// Bytes that a hull shader hands on for it.
+    pub(super) hull_bytes: u32,
 }
 
 /// What levels are chosen from.
 pub(super) struct Placing<'a> {
     pub(super) config: &'a Config,
     pub(super) view: &'a View,
-    pub(super) patch: &'a Patch,
-    pub(super) state: &'a State,
-    /// Its part in its primitive's unions, where it has one.
-    pub(super) share: Option<Share<'a>>,
+    pub(super) input: &'a Input<'a>,
 }
 
 /// What became of it.
 pub(super) struct Placed<T> {
     pub(super) lists: T,
     pub(super) events: Events,
+    /// By which the level block computed; `Fixed` where it computed nothing.
+    pub(super) criterion: Criterion,
     /// What the level block does one after another; 0 where it has done it before.
     pub(super) levels: u16,
     /// Reciprocals formed.
@@ -56,37 +90,31 @@ pub(super) struct Placed<T> {
 }
 
 /// The blocks of one pipeline and what they made of the patch before.
-pub(super) struct Pipeline<'a, F: Front> {
+pub(super) struct Pipeline<'a, M: Make> {
     config: &'a Config,
     view: View,
-    placement: Placement<F::List>,
-    evaluate: Evaluate,
+    make: M,
     /// Vertices of the last patch.
     pub(super) vertices: Vec<Vertex>,
     /// Their screen positions, where the divide is on.
     pub(super) screen: Vec<Screen>,
-    stitch: Stitch<F::Lists>,
-    degenerate: Degenerate,
     /// What became of the last patch.
-    pub(super) work: Work<F::Lists>,
+    pub(super) work: Work<M::Lists>,
     /// What all patches cost.
     pub(super) counters: Counters,
 }
 
-impl<'a, F: Front> Pipeline<'a, F> {
+impl<'a, M: Make> Pipeline<'a, M> {
     /// A pipeline for a frame.
     #[must_use]
     pub(super) fn new(config: &'a Config, frame: &FrameState) -> Self {
         Self {
             config,
             view: frame.view,
-            placement: Placement::default(),
-            evaluate: Evaluate::new(settings(config, frame.position(config))),
+            make: M::new(config, frame),
             vertices: Vec::new(),
             screen: Vec::new(),
-            stitch: Stitch::default(),
-            degenerate: Degenerate::default(),
-            work: Work::clipped(),
+            work: Work::clipped(M::Lists::default()),
             counters: Counters::default(),
         }
     }
@@ -94,41 +122,36 @@ impl<'a, F: Front> Pipeline<'a, F> {
     /// Triangles of the last patch.
     #[must_use]
     pub(super) fn triangles(&self) -> &[Triangle] {
-        self.stitch.triangles()
+        self.make.triangles()
     }
 
-    /// Takes a patch through all blocks. Its levels are chosen from `seen`: the patch itself, but
-    /// where they come from before the unit. Returns whether anything is left of it.
-    pub(super) fn accept(
-        &mut self,
-        patch: &Patch,
-        seen: &Patch,
-        state: &State,
-        share: Option<Share<'_>>,
-    ) -> bool {
+    /// Takes a patch through all blocks. Returns whether anything is left of it.
+    pub(super) fn accept(&mut self, input: &Input<'_>) -> bool {
         self.screen.clear();
-        self.work = Work::clipped();
-        if F::CULLS && !self.keeps(patch) {
+        self.work = Work::clipped(self.make.enter(input));
+        if M::CULLS && !self.keeps(input.patch) {
+            self.make.cull(&mut self.counters);
             return false;
         }
         self.work.fate = Fate::Kept;
-        self.place(seen, state, share);
-        self.shape(patch);
-        self.send();
+        self.place(input);
+        let lists = self.work.lists;
+        let leave = self.make.shape(lists, input, &mut self.vertices, &mut self.counters);
+        self.send(leave, input.components);
         true
     }
 
     /// Takes a patch as far as its lists, which go into the unions of its primitive.
-    pub(super) fn measure(&mut self, patch: &Patch, state: &State, share: Share<'_>) {
-        self.work = Work::clipped();
-        if F::CULLS && !self.keeps(patch) {
+    pub(super) fn measure(&mut self, input: &Input<'_>) {
+        self.work = Work::clipped(self.make.enter(input));
+        if M::CULLS && !self.keeps(input.patch) {
             let clipped = self.work.fate == Fate::Clipped;
             let culled = if clipped { Counter::ClipMeasured } else { Counter::BackfaceMeasured };
             self.counters.add(culled, 1);
             return;
         }
         self.work.fate = Fate::Measured;
-        self.place(patch, state, Some(share));
+        self.place(input);
         self.counters.add(Counter::PlaceMeasured, 1);
     }
 
@@ -151,23 +174,15 @@ impl<'a, F: Front> Pipeline<'a, F> {
         verdict != Verdict::Culled
     }
 
-    /// Level and place.
-    fn place(&mut self, patch: &Patch, state: &State, share: Option<Share<'_>>) {
-        let Self { config, view, .. } = self;
-        let placing = Placing { config, view, patch, state, share };
-        let placed = F::place(placing, &mut self.placement);
+    /// Levels and places.
+    fn place(&mut self, input: &Input<'_>) {
+        let placing = Placing { config: self.config, view: &self.view, input };
+        let placed = self.make.place(placing, &mut self.counters);
         self.work.levels = placed.levels;
         self.work.reciprocals = placed.reciprocals;
         self.work.lists = placed.lists;
-        let pass = share.map(|share| share.shared.pass);
-        if pass != Some(Pass::Draw) {
-            self.count_levels(state.criterion, placed.events);
-        }
-        if pass != Some(Pass::Measure) {
-            let [columns, rows] = placed.lists.interior();
-            let parameters = placed.lists.boundary() + columns + rows;
-            self.counters.add(Counter::PlaceReciprocals, placed.reciprocals.into());
-            self.counters.add(Counter::PlaceParameters, parameters as u64);
+        if input.share.map(|share| share.shared.pass) != Some(Pass::Draw) {
+            self.count_levels(placed.criterion, placed.events);
         }
     }
 
@@ -185,31 +200,9 @@ impl<'a, F: Front> Pipeline<'a, F> {
         counters.add(Counter::LevelOverflows, events.overflows.into());
     }
 
-    /// Evaluate and stitch.
-    fn shape(&mut self, patch: &Patch) {
-        let cost = self.evaluate.accept(patch, &self.placement, &mut self.vertices);
-        let triangles = self.stitch.accept(self.work.lists);
-        let degenerate = self.degenerate.count(&self.work.lists, &self.vertices, triangles);
-        let counters = &mut self.counters;
-        counters.add(Counter::EvaluateInvocations, cost.invocations);
-        counters.add(Counter::EvaluateVertices, self.vertices.len() as u64);
-        counters.add(Counter::EvaluateStrips, self.work.lists.strip_count() as u64);
-        counters.add(Counter::EvaluateCurves, cost.curves);
-        counters.add(Counter::EvaluateSteps, cost.steps);
-        counters.add(Counter::EvaluateOverflows, cost.overflows);
-        counters.add(Counter::StitchTriangles, triangles.len() as u64);
-        counters.add(Counter::StitchDegenerate, degenerate);
-        if self.config.evaluate.normals == Normals::TangentPlane {
-            let planes = self.vertices.iter().map(|v| evaluate::tangent_plane(patch, v.u, v.v));
-            let degenerate = planes.filter(|plane| *plane == [0; 4]).count() as u64;
-            counters.add(Counter::EvaluateNormals, self.vertices.len() as u64);
-            counters.add(Counter::EvaluateNormalsDegenerate, degenerate);
-        }
-    }
-
-    /// Emit, and the vertex shader's invocations.
-    fn send(&mut self) {
-        let (vertices, triangles) = (self.vertices.len() as u64, self.triangles().len() as u64);
+    /// Emit, with so many vertices, and the vertex shader's invocations.
+    fn send(&mut self, vertices: u64, components: u64) {
+        let triangles = self.triangles().len() as u64;
         let (emit, shader) = (&self.config.emit, &self.config.vertex_shader);
         let counters = &mut self.counters;
         if self.config.divides() {
@@ -219,25 +212,22 @@ impl<'a, F: Front> Pipeline<'a, F> {
             counters.add(Counter::EmitToClipper, homogeneous);
         }
         let indices = 3 * triangles * u64::from(emit.index_bytes);
+        let attributes = vertices * components * self.config.attributes.component_bytes();
+        let bytes = vertices * u64::from(emit.vertex_bytes) + attributes + indices;
         counters.add(Counter::EmitVertices, vertices);
         counters.add(Counter::EmitTriangles, triangles);
-        counters.add(Counter::EmitBytes, vertices * u64::from(emit.vertex_bytes) + indices);
+        counters.add(Counter::EmitAttributeBytes, attributes);
+        counters.add(Counter::EmitBytes, bytes);
+        if !self.config.unit.has_vertex_shader() {
+            return;
+        }
         let normal = match self.config.evaluate.normals {
             Normals::Off => 0,
             Normals::TangentPlane => shader.bytes_in_normal,
         };
+        let bytes = vertices * u64::from(shader.bytes_in + normal) + attributes;
         counters.add(Counter::VertexShaderInvocations, vertices);
-        counters.add(Counter::VertexShaderBytesIn, vertices * u64::from(shader.bytes_in + normal));
+        counters.add(Counter::VertexShaderBytesIn, bytes);
         counters.add(Counter::VertexShaderBytesOut, vertices * u64::from(shader.bytes_out));
-    }
-}
-
-fn settings(config: &Config, position: Format) -> evaluate::Settings {
-    evaluate::Settings {
-        position,
-        guard: config.guard(),
-        scheme: config.scheme(),
-        rounding: config.evaluate.rounding,
-        overflow: config.position.overflow,
     }
 }

@@ -4,7 +4,7 @@ use super::attributes::Corners;
 use super::batch::{self, Batch, Tally};
 use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
-use super::pipeline::Front;
+use super::pipeline::Make;
 use super::{blocks, chain, work};
 use crate::config::Config;
 use crate::error::Result;
@@ -19,7 +19,7 @@ use rtl_model::patch::View;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-pub(super) struct Run<'a, F: Front> {
+pub(super) struct Run<'a, M: Make> {
     pub(super) config: &'a Config,
     sink: &'a mut dyn Sink,
     pub(super) points: HashMap<u32, Points>,
@@ -33,7 +33,7 @@ pub(super) struct Run<'a, F: Front> {
     pub(super) draws: Vec<(Transfer, u64)>,
     tallies: Vec<Tally>,
     pub(super) batch: Batch,
-    clock: Clock<F::Lists>,
+    clock: Clock<M::Lists>,
     pub(super) scratch: Vec<[f32; 4]>,
     /// Of the current frame; before the first frame, what that frame will be charged with.
     pub(super) counters: Counters,
@@ -44,7 +44,7 @@ pub(super) struct Run<'a, F: Front> {
     host_link_bytes: u64,
 }
 
-impl<'a, F: Front> Run<'a, F> {
+impl<'a, M: Make> Run<'a, M> {
     pub(super) fn new(config: &'a Config, sink: &'a mut dyn Sink) -> Self {
         Self {
             config,
@@ -71,7 +71,7 @@ impl<'a, F: Front> Run<'a, F> {
         Self { clock: Clock::recording(config), ..Self::new(config, sink) }
     }
 
-    pub(super) fn finish_recording(mut self) -> Result<Tokens<F::Lists>> {
+    pub(super) fn finish_recording(mut self) -> Result<Tokens<M::Lists>> {
         self.end_frame()?;
         Ok(self.clock.into_recording().expect("it was recorded"))
     }
@@ -201,7 +201,7 @@ impl<'a, F: Front> Run<'a, F> {
         let frame = self.frame.expect("patches belong to a frame");
         let wanted = self.sink.wants(self.frames.len() as u64);
         let sink: Option<&mut dyn Sink> = if wanted { Some(&mut *self.sink) } else { None };
-        let tallies = self.batch.flush::<F>(
+        let tallies = self.batch.flush::<M>(
             self.config,
             &frame,
             sink,

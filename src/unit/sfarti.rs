@@ -12,7 +12,8 @@
 //! row and one a column instead (`union`), and there is nothing to zip.
 
 use super::chain;
-use super::pipeline::{Front, Placed, Placing};
+use super::pipeline::{Placed, Placing};
+use super::surface::Front;
 use super::union::Pass;
 use rtl_model::level::{self, Criterion, Events, Termination};
 use rtl_model::patch::Lists;
@@ -30,7 +31,7 @@ impl Front for Sfarti {
     const CULLS: bool = true;
 
     fn place(work: Placing<'_>, placement: &mut DyadicPlacement) -> Placed<Lists> {
-        let Some(share) = work.share else {
+        let Some(share) = work.input.share else {
             let placed = choose(&work);
             placement.set_lists(&placed.lists);
             return placed;
@@ -44,7 +45,8 @@ impl Front for Sfarti {
             Pass::Draw => {
                 let lists = share.lists();
                 placement.set_lists(&lists);
-                Placed { lists, events: Events::default(), levels: 0, reciprocals: 0 }
+                let (events, criterion) = (Events::default(), work.input.state.criterion);
+                Placed { lists, events, criterion, levels: 0, reciprocals: 0 }
             }
         }
     }
@@ -52,9 +54,10 @@ impl Front for Sfarti {
 
 /// The lists that the patch asks for by itself.
 fn choose(work: &Placing<'_>) -> Placed<Lists> {
-    let &Placing { config, view, patch, state, .. } = work;
+    let &Placing { config, view, input } = work;
+    let state = input.state;
     let termination = config.level.termination;
-    let (lists, events) = level::subdivide(patch, view, state, termination);
+    let (lists, events) = level::subdivide(input.seen, view, state, termination);
     let levels = match (state.criterion, termination) {
         // Every piece is looked at once: those of the curves, and two of each division.
         (Criterion::Flatness { .. }, Termination::EightCurves) => {
@@ -62,5 +65,5 @@ fn choose(work: &Placing<'_>) -> Placed<Lists> {
         }
         (criterion, _) => chain::levels(criterion),
     };
-    Placed { lists, events, levels, reciprocals: 0 }
+    Placed { lists, events, criterion: state.criterion, levels, reciprocals: 0 }
 }

@@ -19,6 +19,7 @@ pub(super) fn of(unit: Unit, block: Block, counters: &Counters, sent: u64) -> [u
     match unit {
         Unit::Hybrid | Unit::Sfarti | Unit::Moreton => patches(block, get, sent),
         Unit::Triangles => triangles(block, get, sent),
+        Unit::D3d11 => shaders(block, get, sent),
     }
 }
 
@@ -42,7 +43,24 @@ fn patches(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
         Block::Stitch => [get(C::EvaluateStrips), get(C::StitchTriangles)],
         Block::Emit => [get(C::StitchTriangles), get(C::EmitVertices)],
         Block::VertexShader => [get(C::VertexShaderInvocations); 2],
-        Block::Trace | Block::Unit => [0; 2], // not of the chain
+        _ => [0; 2], // not of the chain
+    }
+}
+
+/// Unit `d3d11`: patches to connect, waves of points from there on.
+fn shaders(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
+    let points = get(C::AssembleReceived) + get(C::AssembleWhole);
+    let (all, kept, waves) = (get(C::HullInvocations), get(C::LevelPatches), get(C::DomainWaves));
+    match block {
+        Block::Link => [sent; 2],
+        Block::Memory => [sent, points],
+        Block::Assemble => [points, all],
+        Block::Hull => [all; 2],
+        Block::Factors => [all, kept],
+        Block::Points => [kept; 2],
+        Block::Connect => [kept, waves],
+        Block::Domain | Block::Emit => [waves; 2],
+        _ => [0; 2], // not of the chain
     }
 }
 

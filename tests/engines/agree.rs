@@ -148,7 +148,7 @@ fn timed_and_stepped_agree_under_every_kind_of_configuration() {
 
 /// Settings of the units that do not divide their patches as the hybrid does. The first of each
 /// unit is its default.
-const OTHER_UNITS: [&[&str]; 9] = [
+const OTHER_UNITS: [&[&str]; 16] = [
     &["unit=sfarti"],
     &["unit=sfarti", "level.termination=bounded"],
     &["unit=sfarti", "level.union=primitive"],
@@ -158,6 +158,13 @@ const OTHER_UNITS: [&[&str]; 9] = [
     &["unit=moreton"],
     &["unit=moreton", "evaluate.scheme=de_casteljau", "link.transfer=pull"],
     &["unit=moreton", "memory.channels=shared", "vertex_shader.to_memory=true"],
+    &["unit=d3d11"],
+    &["unit=d3d11", "hull.to_memory=true", "memory.bandwidth_mb_s=3000"],
+    &["unit=d3d11", "hull.to_memory=true", "memory.channels=shared", "frames=overlap"],
+    &["unit=d3d11", "domain.cache_entries=8", "domain.width=16", "domain.shader=naive"],
+    &["unit=d3d11", "hull.policy=adaptive", "tessellator.partitioning=even", "block.hull.lanes=5"],
+    &["unit=d3d11", "domain.width=1", "block.domain.lanes=7", "tessellator.partitioning=integer"],
+    &["unit=d3d11", "level.level=1", "block.connect.interval=9", "block.points.fifo=1"],
 ];
 
 #[test]
@@ -192,9 +199,19 @@ fn meshes_do_not_change(text: &str, config: &Config, counted: &Said) {
         sink.meshes.iter().map(|mesh| mesh.vertices.len()).sum::<usize>(),
         sink.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
     ];
-    assert_eq!(vertices as u64, report.total(Counter::EmitVertices));
+    let again = report.total(Counter::DomainRepeated);
+    assert_eq!(vertices as u64 + again, report.total(Counter::EmitVertices));
     assert_eq!(triangles as u64, report.total(Counter::EmitTriangles));
     assert_eq!(sink.meshes.len() as u64, report.total(Counter::LevelPatches));
+}
+
+/// The setting of a unit that has the block.
+fn unit_with(block: Block) -> &'static str {
+    use Block::{Connect, Domain, Factors, Hull, Points};
+    match block {
+        Hull | Factors | Points | Connect | Domain => "unit=d3d11",
+        _ => "unit=hybrid",
+    }
 }
 
 /// A setting of a block's key that is far from its default.
@@ -217,17 +234,20 @@ fn every_key_of_a_block_makes_a_difference_that_both_engines_see() {
     let text = runs::teacups(3, 2, 4);
     let mut changed = 0;
     for block in TIMED {
+        let unit = unit_with(block);
         let prefix = format!("block.{}.", block.name());
         for key in KEYS.iter().filter_map(|key| key.path.strip_prefix(&prefix)) {
             let Some([base, far]) = far(block, key) else { continue };
             let what = format!("{far} beside {base}");
-            let ((before, _), (after, _)) =
-                (both(&what, &text, &set(&[&base])), both(&what, &text, &set(&[&base, &far])));
+            let ((before, _), (after, _)) = (
+                both(&what, &text, &set(&[unit, &base])),
+                both(&what, &text, &set(&[unit, &base, &far])),
+            );
             assert_ne!(before, after, "{what} changes nothing");
             changed += 1;
         }
     }
-    assert_eq!(changed, 11 * 5 + 1, "every key but the order of lanes");
+    assert_eq!(changed, 16 * 5 + 1, "every key but the order of lanes");
     println!("compared {changed} pairs of runs");
 }
 
@@ -268,7 +288,13 @@ fn any(random: &mut Random) -> Config {
     let mut settings = vec![
         format!("clock_mhz={}", random.of([50, 400, 2000])),
         format!("frames={}", random.of(["drain", "overlap"])),
-        format!("unit={}", random.of(["hybrid", "sfarti", "moreton", "triangles"])),
+        format!("unit={}", random.of(["hybrid", "sfarti", "moreton", "triangles", "d3d11"])),
+        format!("hull.policy={}", random.of(["criterion", "adaptive"])),
+        format!("hull.to_memory={}", random.of(["false", "true"])),
+        format!("tessellator.partitioning={}", random.of(["integer", "pow2", "odd", "even"])),
+        format!("domain.shader={}", random.of(["naive", "basis"])),
+        format!("domain.cache_entries={}", random.of([0, 1, 12, 65536])),
+        format!("domain.width={}", random.of([1, 4, 64])),
         format!("level.termination={}", random.of(["eight_curves", "bounded"])),
         format!("level.union={}", random.of(["off", "primitive"])),
         format!("link.bus={}", random.of(["agp1x", "agp8x", "pcie1x1", "pcie4x16"])),

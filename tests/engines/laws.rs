@@ -60,12 +60,13 @@ fn frame(report: &Report, frame: &Frame, of_run: bool) -> usize {
 fn every_cycle_of_every_lane_is_in_one_row() {
     let port = ["memory.channels=shared", "vertex_shader.to_memory=true"];
     let lanes = ["block.evaluate.lanes=3", "block.stitch.lanes=2", "block.backface.lanes=4"];
-    let configurations: [Vec<&str>; 6] = [
+    let configurations: [Vec<&str>; 7] = [
         vec![],
         vec!["unit=triangles", "link.bus=agp1x"],
         vec!["unit=triangles", "block.vertex_shader.lanes=7", "block.vertex_shader.interval=9"],
         vec!["block.stitch.lane_order=round_robin", lanes[0], lanes[1], lanes[2]],
         vec![port[0], port[1], "memory.bandwidth_mb_s=9000", lanes[0]],
+        vec!["unit=d3d11", port[0], "hull.to_memory=true", "block.domain.lanes=3"],
         vec!["block.emit.interval=2", "block.level.interval=30", "link.transfer=pull"],
     ];
     let (mut rows, mut kinds) = (0, HashMap::<String, u64>::new());

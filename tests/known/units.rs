@@ -12,7 +12,7 @@ fn unit(unit: Unit) -> Config {
     Config { unit, ..Config::default() }
 }
 
-fn compare(totals: &Counters, known: &[(C, u64)]) {
+pub(super) fn compare(totals: &Counters, known: &[(C, u64)]) {
     for (counter, value) in known {
         assert_eq!(totals.get(*counter), *value, "{counter:?}");
     }

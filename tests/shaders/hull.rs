@@ -3,7 +3,8 @@
 use crate::random::Random;
 use crate::sides::{SIDES, with_edge};
 use rtl_model::patch::EDGES;
-use tessim::shader::hull::{Adaptive, CANDIDATES_MAX, Settings};
+use tessim::config::d3d11::CANDIDATES_MAX;
+use tessim::shader::hull::{Adaptive, Settings};
 
 /// Where the factors of v0, u1, v1, u0 stand in Direct3D's order.
 const FACTOR_OF: [usize; 4] = [1, 2, 3, 0];

@@ -4,6 +4,19 @@
 use crate::patch::{Triangle, Vertex};
 use crate::place::Numbering;
 
+/// How many of these triangles have two equal positions, of any numbering.
+#[must_use]
+pub fn degenerate(vertices: &[Vertex], triangles: &[Triangle]) -> u64 {
+    let at = |k: u16| &vertices[usize::from(k)].position;
+    let is_degenerate = |t: &&Triangle| {
+        let (a, b, c) = (at(t[0]), at(t[1]), at(t[2]));
+        // Almost always x tells, without a branch a comparison.
+        let same_x = (a[0] == b[0]) | (b[0] == c[0]) | (c[0] == a[0]);
+        same_x && (a == b || b == c || c == a)
+    };
+    triangles.iter().filter(is_degenerate).count() as u64
+}
+
 /// The counter and its store.
 ///
 /// Three comparisons of positions a triangle would cost as much as making it. So neighbours of the
@@ -23,17 +36,10 @@ impl Degenerate {
         vertices: &[Vertex],
         triangles: &[Triangle],
     ) -> u64 {
-        let at = |k: u16| &vertices[usize::from(k)].position;
-        let is_degenerate = |t: &&Triangle| {
-            let (a, b, c) = (at(t[0]), at(t[1]), at(t[2]));
-            // Almost always x tells, without a branch a comparison.
-            let same_x = (a[0] == b[0]) | (b[0] == c[0]) | (c[0] == a[0]);
-            same_x && (a == b || b == c || c == a)
-        };
         let [columns, rows] = placement.interior();
         let grid = 2 * columns.saturating_sub(1) * rows.saturating_sub(1); // the first ones
         let sure = if self.neighbours_agree(placement, vertices) { 0 } else { grid };
-        triangles[sure..].iter().filter(is_degenerate).count() as u64
+        degenerate(vertices, &triangles[sure..])
     }
 
     /// Whether two neighbours of the interior grid might be equal: along a row, a column or either

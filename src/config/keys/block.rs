@@ -8,6 +8,9 @@ const IN_FLIGHT: &str = "floor(latency / interval) + 1, which hides the latency"
 /// A token is a patch there, and an item one of its six levels.
 const LEVELS: &str = "4: six levels each fill the pipeline of 16";
 const EVALUATE: &str = "2: one patch runs while the next one's first curve is set up";
+const HULL: &str = "16: 17 threads each, so many patches fill the program's 200 cycles";
+const FACTORS: &str = "4: six factors each fill the pipeline";
+const PATTERN: &str = "2: one patch is walked while the next one arrives";
 const ORDERS: &str = "first_free or round_robin";
 
 /// The keys of the blocks, in the order of the data. Paths and meanings must be joined before the
@@ -84,6 +87,12 @@ pub(super) const KEYS: &[Key] = keys! {
         in_flight: "2",
         fifo: "control points"
     }
+    "hull" {
+        interval: "an item is a thread: 16 a patch for its control points, and one for its factors",
+        latency: "a shader program and its waits, hidden by other patches",
+        in_flight: "16" that is HULL,
+        fifo: "patches"
+    }
     "clip" {
         interval: "an item is a patch: 16 outcodes, four a cycle, so that the 9 new points of a \
                    mesh's patch never wait for it",
@@ -114,6 +123,24 @@ pub(super) const KEYS: &[Key] = keys! {
         in_flight: "4" that is LEVELS,
         fifo: "patches"
     }
+    "factors" {
+        interval: "an item is a tessellation factor: six a patch",
+        latency: "to 16.16, clamped, halved, floor and ceiling",
+        in_flight: "4" that is FACTORS,
+        fifo: "patches"
+    }
+    "points" {
+        interval: "an item is a domain point",
+        latency: "two multiplications and an addition",
+        in_flight: "2" that is PATTERN,
+        fifo: "patches"
+    }
+    "connect" {
+        interval: "an item is a triangle",
+        latency: "a step of the walk, and the cache of shaded points",
+        in_flight: "2" that is PATTERN,
+        fifo: "patches"
+    }
     "evaluate" {
         interval: "an item is a point: a forward-difference step of a vec4 (12 adders) a cycle",
         latency: "three additions in a row, and rounding",
@@ -132,8 +159,17 @@ pub(super) const KEYS: &[Key] = keys! {
         in_flight: "2",
         fifo: "rows"
     }
+    "domain" {
+        interval: "an item is a wave"
+            absent ("64", "domain.width, a point a cycle as in vertex_shader; four times that \
+                     under naive, which reads 256 bytes a point, 64 a cycle"),
+        latency: "a shader program and its waits, hidden by other waves",
+        in_flight: "4",
+        fifo: "waves"
+    }
     "emit" {
-        interval: "an item is a vertex (a divide), or a triangle that brings none",
+        interval: "an item is a vertex (a divide), or a triangle that brings none; unit d3d11: of a \
+                   wave its points or its triangles, whichever are more",
         latency: "a pipelined reciprocal",
         in_flight: "17",
         fifo: "vertices and triangles"

@@ -4,13 +4,12 @@ use super::{DrawState, Pending, Tally};
 use crate::attribute::AttributeTable;
 use crate::error::Result;
 use crate::sink::{PatchMesh, Sink};
-use crate::unit::chain::Work as Done;
-use crate::unit::pipeline::{Front, Pipeline};
+use crate::unit::chain::{Flow, Work as Done};
+use crate::unit::pipeline::{Make, Pipeline};
 use rtl_model::counter::Counters;
 use rtl_model::emit::Screen;
 use rtl_model::number::Rounding;
 use rtl_model::patch::{Triangle, Vertex};
-use rtl_model::strip::Topology;
 use std::sync::Arc;
 
 /// What a thread made of a few patches.
@@ -37,8 +36,8 @@ struct Piece {
     table: Option<Arc<AttributeTable>>,
 }
 
-impl<T: Topology> Pieces<T> {
-    pub(super) fn tally<F: Front>(&mut self, draw: u32, made: &Pipeline<'_, F>) {
+impl<T: Flow> Pieces<T> {
+    pub(super) fn tally<M: Make>(&mut self, draw: u32, made: &Pipeline<'_, M>) {
         let tally = Tally {
             draw,
             vertices: made.vertices.len() as u64,
@@ -47,11 +46,11 @@ impl<T: Topology> Pieces<T> {
         add(&mut self.tallies, tally);
     }
 
-    pub(super) fn keep<F: Front>(
+    pub(super) fn keep<M: Make>(
         &mut self,
         pending: &Pending,
         draw: &DrawState,
-        made: &Pipeline<'_, F>,
+        made: &Pipeline<'_, M>,
         rounding: Rounding,
     ) {
         if let Some(attributes) = &draw.attributes {

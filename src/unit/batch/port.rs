@@ -1,7 +1,7 @@
 //! Control-point shader and port: the points of a batch in, quantised on all threads.
 
 use super::Batch;
-use crate::config::Config;
+use crate::config::{Config, Unit};
 use crate::shader::control_point;
 use crate::unit::frame::FrameState;
 use glam::Mat4;
@@ -24,6 +24,9 @@ impl Batch {
         frame: &FrameState,
         counters: &mut Counters,
     ) {
+        if config.unit == Unit::D3d11 {
+            self.shade();
+        }
         let mut quantised = std::mem::take(&mut self.quantised);
         let [points, overflows, saturated] = if config.unit.in_object_space() {
             let mut seen = std::mem::take(&mut self.seen);
@@ -37,6 +40,17 @@ impl Batch {
         counters.add(Counter::PortPoints, points);
         counters.add(Counter::PortOverflows, overflows);
         counters.add(Counter::PortSaturated, saturated);
+    }
+
+    /// All points in clip space, in f32.
+    fn shade(&mut self) {
+        let Self { points, spans, clip, .. } = self;
+        clip.clear();
+        for span in spans {
+            let points = &points[span.points.clone()];
+            let shaded = points.par_iter().with_min_len(POINT_GRAIN);
+            clip.par_extend(shaded.map(|&p| control_point::transform(&span.clip_from_object, p)));
+        }
     }
 
     /// Quantises all points, transformed or as they are. Returns points received, coordinates that

@@ -1,16 +1,14 @@
-//! The blocks of the chains: what each makes of a token, and what that costs.
+//! What blocks of any chain have in common, and those that every chain begins with: what each makes
+//! of a token, and what that costs.
 //!
 //! A block takes the one kind of token that its neighbour upstream gives; another one means that
 //! the chain is wired wrongly, and ends the program.
 
-use super::{Fate, Token};
-use crate::config::BlockCosts;
+use super::{Flow, Token};
+use crate::config::{BlockCosts, Channels, Config};
 use crate::link::schedule::{LinkSchedule, MemorySchedule};
 use crate::link::wire::Wire;
-use rtl_model::patch::Triangle;
-use rtl_model::strip::{Strip, Topology};
 use rtl_model::time::{Block, Cost, Emit};
-use rtl_model::{emit, evaluate, stitch};
 use std::marker::PhantomData;
 
 /// Cycles for each work item, and until its result.
@@ -26,7 +24,7 @@ impl Steady {
     }
 
     /// So many items one after another.
-    fn cost(&self, items: u16) -> Cost {
+    pub(super) fn cost(&self, items: u16) -> Cost {
         let items = u64::from(items.max(1));
         Cost {
             interval: items * self.interval,
@@ -35,13 +33,13 @@ impl Steady {
     }
 
     /// What passes by, with nothing to be done for it.
-    fn idle(&self) -> Cost {
+    pub(super) fn idle(&self) -> Cost {
         Cost { interval: 1, latency: self.latency.min(1) }
     }
 }
 
 /// What a block makes of the tokens of a chain.
-pub(in crate::unit) trait Step<T: Topology> {
+pub(in crate::unit) trait Step<T: Flow> {
     /// As [`Block::accept`].
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost;
 
@@ -61,7 +59,7 @@ impl<B, T> Of<B, T> {
     }
 }
 
-impl<B: Step<T>, T: Topology> Block for Of<B, T> {
+impl<B: Step<T>, T: Flow> Block for Of<B, T> {
     type Token = Token<T>;
 
     #[inline(always)]
@@ -77,15 +75,21 @@ impl<B: Step<T>, T: Topology> Block for Of<B, T> {
 
 /// A token that does not belong here: the chain is wired wrongly.
 #[cold]
-fn misled<T: Topology>(token: &Token<T>) -> ! {
+pub(super) fn misled<T: Flow>(token: &Token<T>) -> ! {
     unreachable!("{token:?} came to a block that does not take it")
 }
 
 /// The link from the host.
 #[derive(Clone, Debug)]
-pub(in crate::unit) struct Link(pub(super) LinkSchedule);
+pub(in crate::unit) struct Link(LinkSchedule);
 
-impl<T: Topology> Step<T> for Link {
+impl Link {
+    pub(super) fn new(config: &Config) -> Self {
+        Self(LinkSchedule::new(config))
+    }
+}
+
+impl<T: Flow> Step<T> for Link {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         match *token {
             Token::Parcel(parcel, _) => one(token, self.0.accept(&parcel), out),
@@ -102,9 +106,15 @@ impl<T: Topology> Step<T> for Link {
 
 /// Device memory, which hands on control points.
 #[derive(Clone, Debug)]
-pub(in crate::unit) struct Memory(pub(super) MemorySchedule);
+pub(in crate::unit) struct Memory(MemorySchedule);
 
-impl<T: Topology> Step<T> for Memory {
+impl Memory {
+    pub(super) fn new(config: &Config) -> Self {
+        Self(MemorySchedule::new(config))
+    }
+}
+
+impl<T: Flow> Step<T> for Memory {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let Token::Parcel(parcel, work) = *token else { misled(token) };
         let points = self.0.accept(&parcel);
@@ -128,7 +138,7 @@ impl<T: Topology> Step<T> for Memory {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Points(pub(super) Steady);
 
-impl<T: Topology> Step<T> for Points {
+impl<T: Flow> Step<T> for Points {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let cost = if let Token::Whole(_) = token { self.0.idle() } else { self.0.cost(1) };
         one(token, cost, out)
@@ -139,7 +149,7 @@ impl<T: Topology> Step<T> for Points {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Assemble(pub(super) Steady);
 
-impl<T: Topology> Step<T> for Assemble {
+impl<T: Flow> Step<T> for Assemble {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         let (work, cost) = match *token {
             Token::Point(work) => (work, self.0.cost(1)),
@@ -153,166 +163,34 @@ impl<T: Topology> Step<T> for Assemble {
     }
 }
 
-/// Trivial clipping, and whether it is enabled.
+/// A stage's own way to device memory: what it writes behind itself, or reads ahead of itself.
 #[derive(Clone, Debug)]
-pub(in crate::unit) struct Clip(pub(super) Steady, pub(super) bool);
-
-impl<T: Topology> Step<T> for Clip {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let cost = if self.1 { self.0.cost(1) } else { self.0.idle() };
-        if work.fate == Fate::Clipped { cost } else { one(token, cost, out) }
-    }
+pub(in crate::unit) struct Channel {
+    wire: Wire,
+    /// Whether it is the port that other stages use too: then that says when the stage gets it.
+    shared: bool,
 }
 
-/// Back-face removal.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Backface(pub(super) Steady);
-
-impl<T: Topology> Step<T> for Backface {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let cost = if work.tested { self.0.cost(1) } else { self.0.idle() };
-        if work.fate == Fate::Culled { cost } else { one(token, cost, out) }
-    }
-}
-
-/// Levels.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Level(pub(super) Steady);
-
-impl<T: Topology> Step<T> for Level {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let cost = if work.levels > 0 { self.0.cost(work.levels) } else { self.0.idle() };
-        one(token, cost, out)
-    }
-}
-
-/// Parameter lists.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Place(pub(super) Steady);
-
-impl<T: Topology> Step<T> for Place {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let divides = work.reciprocals > 0;
-        let cost = if divides { self.0.cost(work.reciprocals.into()) } else { self.0.idle() };
-        // Lists of a patch that is measured are kept here, for its second pass.
-        if work.fate == Fate::Measured { cost } else { one(token, cost, out) }
-    }
-}
-
-/// Points of the surface, in strips.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Evaluate(pub(super) evaluate::Schedule);
-
-impl<T: Topology> Step<T> for Evaluate {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        self.0.accept(work.lists, &mut Strips(out, PhantomData))
-    }
-}
-
-/// Triangles.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Stitch(pub(super) stitch::Schedule);
-
-impl<T: Topology> Step<T> for Stitch {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Strip(strip) = token else { misled(token) };
-        self.0.accept(strip, &mut Triangles { out, first: strip.first, lists: PhantomData })
-    }
-}
-
-/// Perspective divide and output.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct EmitBlock(pub(super) emit::Schedule);
-
-impl<T: Topology> Step<T> for EmitBlock {
-    #[inline(always)]
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Triangle(triangle, first) = *token else { misled(token) };
-        self.0.accept(triangle, first, &mut Vertices(out, PhantomData))
-    }
-}
-
-/// The vertex shader, and where its vertices are written, if they are.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct VertexShader(pub(super) Steady, pub(super) Option<Store>);
-
-impl<T: Topology> Step<T> for VertexShader {
-    #[inline(always)]
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let cost = shade(self.0, &mut self.1);
-        one(token, cost, out)
+impl Channel {
+    pub(super) fn new(config: &Config) -> Self {
+        let wire = Wire::new(config.memory.bandwidth_mb_s, config.clock_mhz);
+        Self { wire, shared: config.memory.channels == Channels::Shared }
     }
 
-    fn port(&self, _token: &Token<T>) -> Option<u64> {
-        let store = self.1.as_ref().filter(|store| store.shared)?;
-        Some(store.writes.whole_cycles(store.bytes))
+    /// Cycles for which so many bytes hold the stage up.
+    pub(super) fn hold(&mut self, bytes: u64) -> u64 {
+        if self.shared { 0 } else { self.wire.occupy(bytes) }
     }
-}
 
-/// Where shaded vertices are written to memory.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Store {
-    pub(super) writes: Wire,
-    pub(super) bytes: u64,
-    pub(super) shared: bool,
+    /// Cycles for which so many bytes hold the shared port, if it is one.
+    pub(super) fn port(&self, bytes: u64) -> Option<u64> {
+        self.shared.then(|| self.wire.whole_cycles(bytes))
+    }
 }
 
 /// Emits the one output of a token when it is done.
 #[inline(always)]
-fn one<T: Topology>(token: &Token<T>, cost: Cost, out: &mut impl Emit<Token<T>>) -> Cost {
+pub(super) fn one<T: Flow>(token: &Token<T>, cost: Cost, out: &mut impl Emit<Token<T>>) -> Cost {
     out.emit(*token, cost.latency);
     cost
-}
-
-#[inline]
-fn shade(shader: Steady, store: &mut Option<Store>) -> Cost {
-    let cost = shader.cost(1);
-    match store {
-        Some(store) if !store.shared => {
-            // Written behind the shader: it takes the next vertex when the last one's is through.
-            let written = store.writes.occupy(store.bytes);
-            Cost { interval: cost.interval.max(written), ..cost }
-        }
-        _ => cost,
-    }
-}
-
-/// Vertices as tokens.
-struct Vertices<'a, E, T>(&'a mut E, PhantomData<T>);
-
-impl<T, E: Emit<Token<T>>> Emit<u16> for Vertices<'_, E, T> {
-    #[inline(always)]
-    fn emit(&mut self, _vertex: u16, offset: u64) {
-        self.0.emit(Token::Vertex, offset);
-    }
-}
-
-/// Triangles as tokens.
-struct Triangles<'a, E, T> {
-    out: &'a mut E,
-    first: bool,
-    lists: PhantomData<T>,
-}
-
-impl<T, E: Emit<Token<T>>> Emit<Triangle> for Triangles<'_, E, T> {
-    #[inline(always)]
-    fn emit(&mut self, triangle: Triangle, offset: u64) {
-        let first = std::mem::take(&mut self.first);
-        self.out.emit(Token::Triangle(triangle, first), offset);
-    }
-}
-
-/// Strips as tokens.
-struct Strips<'a, E, T>(&'a mut E, PhantomData<T>);
-
-impl<T, E: Emit<Token<T>>> Emit<Strip> for Strips<'_, E, T> {
-    #[inline(always)]
-    fn emit(&mut self, strip: Strip, offset: u64) {
-        self.0.emit(Token::Strip(strip), offset);
-    }
 }
