@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 pub use block::{BackfaceCosts, BlockCosts, Blocks, EvaluateCosts};
 pub use link::{Bus, Channels, Link, Memory, TransferMode};
 pub use rtl_model::backface::Method as BackfaceMethod;
+pub use rtl_model::d3d11::Partitioning;
 pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::level::Termination;
 pub use rtl_model::number::{Overflow, Rounding};
