@@ -7,6 +7,7 @@
 //!   assemble       cells of a lattice, by sets   evaluate   Bernstein sums, cross products
 //!   clip           greatest distance to a plane  stitch     midpoints sorted as fractions
 //!   backface       power basis, 256 bits         emit       x / w in f64
+//!   d3d11          ranks in one order of points, sorted segments
 //! ```
 //!
 //! A golden model has the name of its block, `rtl_model/src/NAME.rs`. `tests/agreement` compares
@@ -21,6 +22,7 @@ pub mod attribute;
 pub mod backface;
 pub mod clip;
 pub mod control_point;
+pub mod d3d11;
 pub mod emit;
 pub mod evaluate;
 pub mod level;

@@ -7,6 +7,7 @@ mod blocks;
 mod dyadic;
 mod ledger;
 mod levels;
+mod patterns;
 mod planes;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]

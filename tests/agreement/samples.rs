@@ -5,6 +5,7 @@ use super::blocks;
 use super::dyadic;
 use super::ledger::Ledger;
 use super::levels;
+use super::patterns;
 use super::planes::{self, Source};
 use super::random::{Kind, Random, patch};
 use super::table::{At, Quantity as Q};
@@ -66,6 +67,9 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
     }
     for _ in 0..600 * scale {
         planes(ledger, &mut random);
+    }
+    for _ in 0..10_000 * scale {
+        patterns::compare(ledger, &mut random);
     }
 }
 

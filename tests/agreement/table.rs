@@ -77,6 +77,11 @@ pub(crate) enum Quantity {
     StitchDegenerate,
     EmitPixel,
     EmitDivided,
+    D3d11Culled,
+    D3d11Counts,
+    D3d11Parameter,
+    D3d11SetOff,
+    D3d11Triangles,
 }
 
 /// A row of the table.
@@ -274,4 +279,18 @@ pub(crate) const TABLE: &[Row] = &[
         "one quotient, rounded once; f64 within 2^-26"),
     exact(Q::EmitDivided, "emit", "vertices divided", 100_000,
         "comparisons of integers"),
+    exact(Q::D3d11Culled, "d3d11", "whether factors cull", 5_000,
+        "comparisons of floats"),
+    exact(Q::D3d11Counts, "d3d11", "numbers of points and indices", 5_000,
+        "closed formulas against what was made"),
+    within(Q::D3d11Parameter, "d3d11", "parameter on an edge or of a grid, U1.16 ulps", 1_000_000,
+        |at| 0.5 + 0.5 * f64::from(at.steps[0]) + 0.5,
+        "rounded once; k steps of a reciprocal that is off by half an ulp; and half a factor is \
+         rounded up to 16 bits, which moves t by half an ulp of at most one segment"),
+    within(Q::D3d11SetOff, "d3d11", "parameter inside a triangle, U1.16 ulps", 500_000,
+        |at| 2.5 * (1.0 + 0.5 * f64::from(at.steps[0])) + 1.5,
+        "1 - along - off: off is two thirds of one parameter and a rounding and a truncated 2/3, \
+         along another parameter less half of off, rounded up"),
+    exact(Q::D3d11Triangles, "d3d11", "set of triangles", 5_000,
+        "decisions"),
 ];

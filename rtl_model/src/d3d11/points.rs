@@ -8,7 +8,14 @@
 use super::{Domain, Factors, List};
 
 /// Points after the last one that may be written: their values mean nothing.
-pub(super) const SLACK: usize = 4;
+pub(super) const SLACK: usize = EDGE;
+
+/// Why a handful of points can be written.
+const ROOM: &str = "there are more places than points";
+
+/// Points of an edge, and of a side of a ring, that are made at once.
+const EDGE: usize = 12;
+const SIDE: usize = 8;
 
 /// The middle and the end of an edge in U1.16.
 const HALF: u32 = 1 << 15;
@@ -42,7 +49,7 @@ impl Lists {
             Domain::Isoline => {
                 let [across, along, ..] = &self.0;
                 for &v in &across.parameters()[..factors.lines()] {
-                    run.put(along, 0, along.last() + 1, |u| [u, v]);
+                    run.put::<EDGE>(along, 0, along.last() + 1, |u| [u, v]);
                 }
             }
         }
@@ -50,33 +57,33 @@ impl Lists {
 
     fn quad(&self, run: &mut Run<'_>) {
         let [u0, v0, u1, v1, u, v] = &self.0;
-        run.put(u0, 0, u0.last(), |t| [0, ONE - t]);
-        run.put(v0, 0, v0.last(), |t| [t, 0]);
-        run.put(u1, 0, u1.last(), |t| [ONE, t]);
-        run.put(v1, 0, v1.last(), |t| [ONE - t, ONE]);
+        run.put::<EDGE>(u0, 0, u0.last(), |t| [0, less(ONE, t)]);
+        run.put::<EDGE>(v0, 0, v0.last(), |t| [t, 0]);
+        run.put::<EDGE>(u1, 0, u1.last(), |t| [ONE, t]);
+        run.put::<EDGE>(v1, 0, v1.last(), |t| [less(ONE, t), ONE]);
         let [columns, rows] = [u.last(), v.last()]; // segments
         let rings = (rows.min(columns) + 1) / 2;
         for ring in 1..rings {
             let [low_u, low_v] = [u.parameters()[ring], v.parameters()[ring]];
             let [along_u, along_v] = [columns - 2 * ring, rows - 2 * ring];
-            run.put(v, ring, along_v, |t| [low_u, ONE - t]);
-            run.put(u, ring, along_u, |t| [t, low_v]);
-            run.put(v, ring, along_v, |t| [ONE - low_u, t]);
-            run.put(u, ring, along_u, |t| [ONE - t, ONE - low_v]);
+            run.put::<SIDE>(v, ring, along_v, |t| [low_u, less(ONE, t)]);
+            run.put::<SIDE>(u, ring, along_u, |t| [t, low_v]);
+            run.put::<SIDE>(v, ring, along_v, |t| [ONE - low_u, t]);
+            run.put::<SIDE>(u, ring, along_u, |t| [less(ONE, t), ONE - low_v]);
         }
         // An even axis ends in a row or a column, which is the near and the far side of a ring.
         if rows <= columns && rows.is_multiple_of(2) {
-            run.put(u, rings, columns + 1 - 2 * rings, |t| [t, HALF]);
+            run.put::<SIDE>(u, rings, columns + 1 - 2 * rings, |t| [t, HALF]);
         } else if columns < rows && columns.is_multiple_of(2) {
-            run.put(v, rings, rows + 1 - 2 * rings, |t| [HALF, ONE - t]);
+            run.put::<SIDE>(v, rings, rows + 1 - 2 * rings, |t| [HALF, less(ONE, t)]);
         }
     }
 
     fn tri(&self, run: &mut Run<'_>, least: bool) {
         let [u0, v0, w0, inner, ..] = &self.0;
-        run.put(u0, 0, u0.last(), |t| [0, ONE - t]);
-        run.put(v0, 0, v0.last(), |t| [t, 0]);
-        run.put(w0, 0, w0.last(), |t| [ONE - t, t]);
+        run.put::<EDGE>(u0, 0, u0.last(), |t| [0, less(ONE, t)]);
+        run.put::<EDGE>(v0, 0, v0.last(), |t| [t, 0]);
+        run.put::<EDGE>(w0, 0, w0.last(), |t| [less(ONE, t), t]);
         if least {
             return;
         }
@@ -86,14 +93,20 @@ impl Lists {
             let off = (parameter * TWO_THIRDS + (1 << 15)) >> 16; // 31 bits before the shift
             let back = off.div_ceil(2);
             let along = segments - 2 * ring;
-            run.put(inner, ring, along, |t| [off, ONE - t - back]);
-            run.put(inner, ring, along, |t| [t - back, off]);
-            run.put(inner, ring, along, |t| [ONE - t - back, t + back - off]);
+            run.put::<SIDE>(inner, ring, along, |t| [off, less(ONE - back, t)]);
+            run.put::<SIDE>(inner, ring, along, |t| [less(t, back), off]);
+            run.put::<SIDE>(inner, ring, along, |t| [less(ONE - back, t), less(t, off - back)]);
         }
         if segments.is_multiple_of(2) {
             run.out[run.at] = [THIRD, THIRD];
         }
     }
+}
+
+/// A difference, which may wrap where it means nothing.
+#[inline(always)]
+fn less(a: u32, b: u32) -> u32 {
+    a.wrapping_sub(b)
 }
 
 /// Where the next points go.
@@ -104,13 +117,23 @@ struct Run<'a> {
 
 impl Run<'_> {
     /// Puts `count` points, one for each parameter of `list` from number `first` on. They are made
-    /// [`SLACK`] at a time: what is too many is overwritten by what follows.
+    /// `N` at a time, at most [`SLACK`]: what is too many is overwritten by what follows.
     #[inline(always)]
-    fn put(&mut self, list: &List, first: usize, count: usize, point: impl Fn(u32) -> [u32; 2]) {
-        let (parameters, _) = list.padded()[first..].as_chunks::<SLACK>();
-        let (out, _) = self.out[self.at..].as_chunks_mut::<SLACK>();
-        for (out, parameters) in out.iter_mut().zip(parameters).take(count.div_ceil(SLACK)) {
-            *out = parameters.map(&point);
+    fn put<const N: usize>(
+        &mut self,
+        list: &List,
+        first: usize,
+        count: usize,
+        point: impl Fn(u32) -> [u32; 2],
+    ) {
+        let mut done = 0;
+        while done < count {
+            let parameters: &[u32; N] = list.padded()[first + done..].first_chunk().expect(ROOM);
+            let out: &mut [[u32; 2]; N] = self.out[self.at + done..].first_chunk_mut().expect(ROOM);
+            for (out, &parameter) in out.iter_mut().zip(parameters) {
+                *out = point(parameter);
+            }
+            done += N;
         }
         self.at += count;
     }

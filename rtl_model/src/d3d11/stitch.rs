@@ -20,12 +20,19 @@
 //! triangle are those of the two rows' points plus constants. What is written too many is
 //! overwritten by what follows.
 
-use super::group::{GROUPS, Group, ON_INNER, PAIRS, STEPS};
+use super::group::{GROUPS, Group, Next, PAIRS, STEPS};
 use super::walk::{self, Walk};
 use super::{Domain, Factors, Output};
 
 /// Indices after the last one that may be written: their values mean nothing.
-pub(super) const SLACK: usize = 32;
+pub(super) const SLACK: usize = 96;
+
+/// Groups of a walk that are made before it is asked whether it ends, and their numbers.
+const BLOCK: usize = 4;
+const BLOCK_NUMBERS: usize = 3 * STEPS * BLOCK;
+
+/// Why a handful of numbers can be written.
+const ROOM: &str = "there are more places than numbers";
 
 /// Marks the numbers of the inner row while a ring is closed: 4225 points leave bit 15 free.
 const INNER: u16 = 1 << 15;
@@ -201,16 +208,19 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
 
     /// Lets the last transition, from index `begin` on, end at the first points of the edges and of
     /// the ring.
+    #[inline(always)]
     fn close<const SIDES: usize>(&mut self, begin: usize, ring: &Ring<SIDES>) {
         let outer_end = ring.first as u16;
         // A line is not closed, and never comes to its end: the way back ends at its first point.
         let (inner_first, inner_end) = (ring.first as u16, INNER | ring.end() as u16);
-        let (eights, _) = self.out[begin..].as_chunks_mut::<8>();
-        for eight in &mut eights[..(self.at - begin).div_ceil(8)] {
-            *eight = eight.map(|number| {
-                let inner = if number == inner_end { inner_first } else { number & !INNER };
-                if number == outer_end { 0 } else { inner }
-            });
+        let mut at = begin;
+        while at < self.at {
+            let block: &mut [u16; 64] = self.out[at..].first_chunk_mut().expect(ROOM);
+            for number in block {
+                let inner = if *number == inner_end { inner_first } else { *number & !INNER };
+                *number = if *number == outer_end { 0 } else { inner };
+            }
+            at += 64;
         }
     }
 
@@ -218,23 +228,30 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
     #[inline(always)]
     fn transition(&mut self, outer: u16, inner: Row, walk: Walk) {
         let groups = &GROUPS[usize::from(CLOCKWISE)][usize::from(inner.step == DOWN)].walk;
-        let begin = self.at;
-        let (mut steps, mut o, mut i) = (walk.steps, outer, inner.first);
-        for _ in 0..walk.count.div_ceil(STEPS) {
-            let next = steps as usize % (1 << STEPS);
-            groups[next].numbers(o, i, self.next());
-            self.at += 3 * STEPS;
-            let on_inner = ON_INNER[next];
-            o = o.wrapping_add(STEPS as u16 - on_inner);
-            i = i.wrapping_add(on_inner.wrapping_mul(inner.step));
-            steps >>= STEPS;
+        let (begin, end) = (self.at, self.at + 3 * walk.count);
+        let (mut steps, mut next) = (walk.steps, Next::new(outer, inner.first));
+        loop {
+            let mut now = steps as u32; // BLOCK * STEPS of them
+            let out: &mut [u16; BLOCK_NUMBERS + 1] =
+                self.out[self.at..].first_chunk_mut().expect(ROOM);
+            for k in 0..BLOCK {
+                let group = &groups[now as usize % (1 << STEPS)];
+                let (out, _) = out[3 * STEPS * k..].as_chunks_mut();
+                group.write(&mut next, out.first_chunk_mut().expect(ROOM));
+                now >>= STEPS;
+            }
+            self.at += BLOCK_NUMBERS;
+            if self.at >= end {
+                break;
+            }
+            steps >>= BLOCK * STEPS;
         }
-        self.at = begin + 3 * walk.count;
-        if let Some(k) = walk.outer_middle {
-            // This one begins at the inner row.
-            let [a, b, c] = *self.triangle(begin + 3 * k);
-            *self.triangle(begin + 3 * k) = if CLOCKWISE { [c, a, b] } else { [b, c, a] };
-        }
+        self.at = end;
+        // The one across the middle begins at the inner row; where there is none, what is turned
+        // means nothing.
+        let middle = walk.outer_middle.map_or(end, |k| begin + 3 * k);
+        let [a, b, c] = *self.triangle(middle);
+        *self.triangle(middle) = if CLOCKWISE { [c, a, b] } else { [b, c, a] };
     }
 
     /// The strips of a ring around another one.
@@ -279,25 +296,22 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
         let first = pairs.div_ceil(2);
         let begin = self.at;
         // The first triangle makes the pairs of one half those of a group, three numbers on.
-        self.pairs(&groups.first, outer, inner, 6 * first + 3);
-        self.at = begin + 6 * first + 3;
-        let rest = Row { first: inner.at(first), ..inner };
-        self.pairs(&groups.second, outer + 1 + first as u16, rest, 6 * (pairs - first));
-        self.at = begin + 6 * pairs + 3;
+        self.pairs(&groups.first, Next::new(outer, inner.first), begin + 6 * first + 3);
+        let next = Next::new(outer + 1 + first as u16, inner.at(first));
+        self.pairs(&groups.second, next, begin + 6 * pairs + 3);
         let o = outer + segments as u16;
         self.put([o - 1, inner.at(pairs), o]);
     }
 
-    /// At least `count` numbers of pairs.
+    /// Pairs up to index `end`.
     #[inline(always)]
-    fn pairs(&mut self, group: &Group<24>, mut o: u16, inner: Row, count: usize) {
-        let mut i = inner.first;
-        for _ in 0..count.div_ceil(6 * PAIRS) {
-            group.numbers(o, i, self.next());
+    fn pairs(&mut self, group: &Group<3>, mut next: Next, end: usize) {
+        while self.at < end {
+            let (out, _) = self.out[self.at..].as_chunks_mut();
+            group.write(&mut next, out.first_chunk_mut().expect(ROOM));
             self.at += 6 * PAIRS;
-            o = o.wrapping_add(PAIRS as u16);
-            i = i.wrapping_add((PAIRS as u16).wrapping_mul(inner.step));
         }
+        self.at = end;
     }
 
     /// The strip that an odd axis of a quad ends in: a ring of which two sides have one segment.
@@ -331,7 +345,7 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
     /// The next `N` places.
     #[inline(always)]
     fn next<const N: usize>(&mut self) -> &mut [u16; N] {
-        self.out[self.at..].first_chunk_mut().expect("there are more places than numbers")
+        self.out[self.at..].first_chunk_mut().expect(ROOM)
     }
 
     #[inline(always)]
