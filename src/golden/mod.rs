@@ -7,6 +7,7 @@
 //!   assemble       cells of a lattice, by sets   evaluate   Bernstein sums, cross products
 //!   clip           greatest distance to a plane  stitch     midpoints sorted as fractions
 //!   backface       power basis, 256 bits         emit       x / w in f64
+//!   hull           hats, one denominator         domain     de Casteljau in f64
 //! ```
 //!
 //! A golden model has the name of its block, `rtl_model/src/NAME.rs`. `tests/agreement` compares
@@ -21,8 +22,10 @@ pub mod attribute;
 pub mod backface;
 pub mod clip;
 pub mod control_point;
+pub mod domain;
 pub mod emit;
 pub mod evaluate;
+pub mod hull;
 pub mod level;
 pub mod place;
 pub mod port;

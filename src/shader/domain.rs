@@ -251,3 +251,54 @@ fn visit<D: Datapath>(
         put(form::surface(d, form, &net.0, at));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        #[test]
+        fn sixty_four_bits_are_enough_where_they_are_used(
+            width in 2u32..=48,
+            weight_bits in 16u32..=30,
+            modes in (0usize..4, 0usize..2, 0usize..3),
+            signs in any::<u16>(),
+            extreme in any::<bool>(),
+            points in proptest::array::uniform16(any::<i64>()),
+            site in proptest::array::uniform2(0..=ONE),
+        ) {
+            let position = Format::of_range(width, 0);
+            let [rounding, overflow] = [modes.0, modes.1];
+            let (rounding, overflow) = (Rounding::ALL[rounding], Overflow::ALL[overflow]);
+            let settings = Settings { position, weight_bits, rounding, overflow };
+            let fixed = Fixed::new(Form::ALL[modes.2], settings);
+            // Corners of the cube make the greatest coefficients.
+            let points = std::array::from_fn(|k| {
+                let sign = if signs >> k & 1 == 0 { 1 } else { -1 };
+                let any = points[k] % (position.max() + 1);
+                [if extreme { sign * position.max() } else { any }; 4]
+            });
+            let net = fixed.net(&points);
+            let wide = Fixed { wide: true, ..fixed };
+            prop_assert_eq!(fixed.point(&net, site), wide.point(&net, site));
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "weights of 31 fraction bits")]
+    fn weights_whose_products_do_not_fit_are_refused() {
+        let position = Format::of_range(32, 0);
+        let (rounding, overflow) = (Rounding::Floor, Overflow::Wrap);
+        let _ =
+            Fixed::new(Form::Paired, Settings { position, weight_bits: 31, rounding, overflow });
+    }
+
+    #[test]
+    #[should_panic(expected = "is above 1")]
+    fn a_parameter_above_one_is_refused() {
+        let single = Single::new(Form::Paired);
+        let _ = single.point(&single.net(&[[0.0; 4]; 16]), [ONE + 1, 0]);
+    }
+}
