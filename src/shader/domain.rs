@@ -55,8 +55,8 @@ pub trait Evaluator {
     fn net(&self, points: &[[Self::Coordinate; 4]; 16]) -> Net<Self::Value>;
 
     /// Gives `put` the point at each of `sites`, `[u, v]` in U1.16, in order, and how many of its
-    /// coordinates did not fit. Neighbours in a row share the weights of the parameter that they
-    /// have in common.
+    /// coordinates did not fit. Sites in a row share what depends on the one parameter that they
+    /// have in common: weights of v, or all of the work on the net's rows if it is u.
     ///
     /// # Panics
     /// When a parameter exceeds 1.
@@ -216,24 +216,27 @@ fn net<D: Datapath>(d: D, form: Form, points: [D::Value; 16]) -> Net<D::Value> {
     })
 }
 
-/// The last parameter's basis.
+/// What the last parameters left: an inner ring walks along one and then along the other.
 struct Memo<D: Datapath> {
-    t: u32,
+    u: u32,
+    /// The curve along v at this u.
+    rows: [D::Value; 4],
+    v: u32,
     basis: Basis<D>,
 }
 
 impl<D: Datapath> Memo<D> {
-    fn new(d: D, form: Form) -> Self {
-        Self { t: 0, basis: form::basis(d, form, 0) }
-    }
-
     #[inline(always)]
-    fn at(&mut self, d: D, form: Form, t: u32) -> &Basis<D> {
-        if t != self.t {
-            assert!(t <= ONE, "a parameter of {t} / 65536 is above 1");
-            *self = Self { t, basis: form::basis(d, form, t) };
+    fn point(&mut self, d: D, form: Form, net: &Net<D::Value>, [u, v]: [u32; 2]) -> D::Value {
+        if u != self.u {
+            assert!(u <= ONE, "a parameter of {u} / 65536 is above 1");
+            (self.u, self.rows) = (u, form::rows(d, form, &net.0, &form::basis(d, form, u)));
         }
-        &self.basis
+        if v != self.v {
+            assert!(v <= ONE, "a parameter of {v} / 65536 is above 1");
+            (self.v, self.basis) = (v, form::basis(d, form, v));
+        }
+        form::curve(d, form, &self.basis, self.rows)
     }
 }
 
@@ -245,10 +248,13 @@ fn visit<D: Datapath>(
     sites: impl IntoIterator<Item = [u32; 2]>,
     mut put: impl FnMut(D::Value),
 ) {
-    let (mut along_u, mut along_v) = (Memo::new(d, form), Memo::new(d, form));
-    for [u, v] in sites {
-        let at = [along_u.at(d, form, u), along_v.at(d, form, v)];
-        put(form::surface(d, form, &net.0, at));
+    let mut sites = sites.into_iter().peekable();
+    let Some(&[u, v]) = sites.peek() else { return };
+    assert!(u <= ONE && v <= ONE, "a parameter of {} / 65536 is above 1", u.max(v));
+    let rows = form::rows(d, form, &net.0, &form::basis(d, form, u));
+    let mut memo = Memo { u, rows, v, basis: form::basis(d, form, v) };
+    for site in sites {
+        put(memo.point(d, form, net, site));
     }
 }
 

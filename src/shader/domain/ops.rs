@@ -123,7 +123,7 @@ pub fn naive_point(form: Form, widths: Widths) -> Ops {
 #[cfg(test)]
 mod tests {
     use super::super::datapath::Datapath;
-    use super::super::form::{basis, coefficients, surface};
+    use super::super::form::{basis, coefficients, curve, rows};
     use super::*;
     use std::cell::Cell;
 
@@ -202,7 +202,7 @@ mod tests {
             for form in Form::ALL {
                 let a_point = counted(widths, |d| {
                     let (u, v) = (basis(d, form, 3), basis(d, form, 5));
-                    surface(d, form, &[(); 16], [&u, &v]);
+                    curve(d, form, &v, rows(d, form, &[(); 16], &u));
                 });
                 // Horner takes u as it is: of two parameters, none is a difference.
                 let spare = if form == Form::Power { 1 } else { 0 };
