@@ -7,6 +7,7 @@
 //!   assemble       cells of a lattice, by sets   evaluate   Bernstein sums, cross products
 //!   clip           greatest distance to a plane  stitch     midpoints sorted as fractions
 //!   backface       power basis, 256 bits         emit       x / w in f64
+//!   hull           hats, one denominator         domain     de Casteljau in f64
 //!   d3d11          ranks in one order of points, sorted segments
 //! ```
 //!
@@ -23,8 +24,10 @@ pub mod backface;
 pub mod clip;
 pub mod control_point;
 pub mod d3d11;
+pub mod domain;
 pub mod emit;
 pub mod evaluate;
+pub mod hull;
 pub mod level;
 pub mod place;
 pub mod port;

@@ -100,6 +100,10 @@ fn patches(table: &mut Table, report: &Report, totals: &Counters) {
 fn made(table: &mut Table, report: &Report, totals: &Counters) {
     table.section("made");
     let rows = [
+        (Block::Hull, "hull shader patches", Counter::HullInvocations),
+        (Block::Hull, "hull shader threads", Counter::HullThreads),
+        (Block::Domain, "domain shader invocations", Counter::DomainInvocations),
+        (Block::Domain, "  in waves", Counter::DomainWaves),
         (Block::Emit, "vertices", Counter::EmitVertices),
         (Block::Emit, "triangles", Counter::EmitTriangles),
         (Block::VertexShader, "vertex shader invocations", Counter::VertexShaderInvocations),

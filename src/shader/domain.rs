@@ -55,8 +55,8 @@ pub trait Evaluator {
     fn net(&self, points: &[[Self::Coordinate; 4]; 16]) -> Net<Self::Value>;
 
     /// Gives `put` the point at each of `sites`, `[u, v]` in U1.16, in order, and how many of its
-    /// coordinates did not fit. Neighbours in a row share the weights of the parameter that they
-    /// have in common.
+    /// coordinates did not fit. Sites in a row share what depends on the one parameter that they
+    /// have in common: weights of v, or all of the work on the net's rows if it is u.
     ///
     /// # Panics
     /// When a parameter exceeds 1.
@@ -216,24 +216,27 @@ fn net<D: Datapath>(d: D, form: Form, points: [D::Value; 16]) -> Net<D::Value> {
     })
 }
 
-/// The last parameter's basis.
+/// What the last parameters left: an inner ring walks along one and then along the other.
 struct Memo<D: Datapath> {
-    t: u32,
+    u: u32,
+    /// The curve along v at this u.
+    rows: [D::Value; 4],
+    v: u32,
     basis: Basis<D>,
 }
 
 impl<D: Datapath> Memo<D> {
-    fn new(d: D, form: Form) -> Self {
-        Self { t: 0, basis: form::basis(d, form, 0) }
-    }
-
     #[inline(always)]
-    fn at(&mut self, d: D, form: Form, t: u32) -> &Basis<D> {
-        if t != self.t {
-            assert!(t <= ONE, "a parameter of {t} / 65536 is above 1");
-            *self = Self { t, basis: form::basis(d, form, t) };
+    fn point(&mut self, d: D, form: Form, net: &Net<D::Value>, [u, v]: [u32; 2]) -> D::Value {
+        if u != self.u {
+            assert!(u <= ONE, "a parameter of {u} / 65536 is above 1");
+            (self.u, self.rows) = (u, form::rows(d, form, &net.0, &form::basis(d, form, u)));
         }
-        &self.basis
+        if v != self.v {
+            assert!(v <= ONE, "a parameter of {v} / 65536 is above 1");
+            (self.v, self.basis) = (v, form::basis(d, form, v));
+        }
+        form::curve(d, form, &self.basis, self.rows)
     }
 }
 
@@ -245,9 +248,63 @@ fn visit<D: Datapath>(
     sites: impl IntoIterator<Item = [u32; 2]>,
     mut put: impl FnMut(D::Value),
 ) {
-    let (mut along_u, mut along_v) = (Memo::new(d, form), Memo::new(d, form));
-    for [u, v] in sites {
-        let at = [along_u.at(d, form, u), along_v.at(d, form, v)];
-        put(form::surface(d, form, &net.0, at));
+    let mut sites = sites.into_iter().peekable();
+    let Some(&[u, v]) = sites.peek() else { return };
+    assert!(u <= ONE && v <= ONE, "a parameter of {} / 65536 is above 1", u.max(v));
+    let rows = form::rows(d, form, &net.0, &form::basis(d, form, u));
+    let mut memo = Memo { u, rows, v, basis: form::basis(d, form, v) };
+    for site in sites {
+        put(memo.point(d, form, net, site));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        #[test]
+        fn sixty_four_bits_are_enough_where_they_are_used(
+            width in 2u32..=48,
+            weight_bits in 16u32..=30,
+            modes in (0usize..4, 0usize..2, 0usize..3),
+            signs in any::<u16>(),
+            extreme in any::<bool>(),
+            points in proptest::array::uniform16(any::<i64>()),
+            site in proptest::array::uniform2(0..=ONE),
+        ) {
+            let position = Format::of_range(width, 0);
+            let [rounding, overflow] = [modes.0, modes.1];
+            let (rounding, overflow) = (Rounding::ALL[rounding], Overflow::ALL[overflow]);
+            let settings = Settings { position, weight_bits, rounding, overflow };
+            let fixed = Fixed::new(Form::ALL[modes.2], settings);
+            // Corners of the cube make the greatest coefficients.
+            let points = std::array::from_fn(|k| {
+                let sign = if signs >> k & 1 == 0 { 1 } else { -1 };
+                let any = points[k] % (position.max() + 1);
+                [if extreme { sign * position.max() } else { any }; 4]
+            });
+            let net = fixed.net(&points);
+            let wide = Fixed { wide: true, ..fixed };
+            prop_assert_eq!(fixed.point(&net, site), wide.point(&net, site));
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "weights of 31 fraction bits")]
+    fn weights_whose_products_do_not_fit_are_refused() {
+        let position = Format::of_range(32, 0);
+        let (rounding, overflow) = (Rounding::Floor, Overflow::Wrap);
+        let _ =
+            Fixed::new(Form::Paired, Settings { position, weight_bits: 31, rounding, overflow });
+    }
+
+    #[test]
+    #[should_panic(expected = "is above 1")]
+    fn a_parameter_above_one_is_refused() {
+        let single = Single::new(Form::Paired);
+        let _ = single.point(&single.net(&[[0.0; 4]; 16]), [ONE + 1, 0]);
     }
 }

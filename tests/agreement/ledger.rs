@@ -14,6 +14,8 @@ pub(crate) struct Ledger {
     tallies: Vec<Tally>,
     /// Decisions of subdivision that rounding may take either way: seen, and not compared.
     pub(crate) undecided: u64,
+    /// Distance tests that rounding may take either way: seen, and not compared.
+    pub(crate) untested: u64,
 }
 
 #[derive(Clone, Default)]
@@ -27,7 +29,7 @@ struct Tally {
 
 impl Ledger {
     pub(crate) fn new() -> Self {
-        Self { tallies: vec![Tally::default(); TABLE.len()], undecided: 0 }
+        Self { tallies: vec![Tally::default(); TABLE.len()], undecided: 0, untested: 0 }
     }
 
     /// Takes in one item of a row with a budget.
@@ -92,11 +94,16 @@ impl Ledger {
                 ));
             }
         }
-        let decided = self.tallies[Quantity::LevelDivided as usize].compared;
-        println!("level: decisions to divide within rounding of the threshold: {}", self.undecided);
-        // Small patches, and positions of few bits, are all rounding.
-        if 10 * self.undecided > decided {
-            wrong.push(format!("{} of {decided} decisions to divide left open", self.undecided));
+        for (quantity, open) in
+            [(Quantity::LevelDivided, self.undecided), (Quantity::HullDecision, self.untested)]
+        {
+            let (row, decided) =
+                (&TABLE[quantity as usize], self.tallies[quantity as usize].compared);
+            println!("{}: {}, within rounding of the threshold: {open}", row.block, row.what);
+            // Small patches, and positions of few bits, are all rounding.
+            if 10 * open > decided {
+                wrong.push(format!("{}: {open} {} left open of {decided}", row.block, row.what));
+            }
         }
         wrong
     }

@@ -13,6 +13,7 @@ mod planes;
 #[path = "../support/random.rs"]
 mod random;
 mod samples;
+mod shaders;
 mod table;
 #[allow(dead_code, reason = "tests/accuracy.rs reads what is left over here")]
 #[path = "../support/walk.rs"]

@@ -8,6 +8,7 @@ use super::levels;
 use super::patterns;
 use super::planes::{self, Source};
 use super::random::{Kind, Random, patch};
+use super::shaders;
 use super::table::{At, Quantity as Q};
 use super::walk;
 use glam::{DMat4, DVec3};
@@ -70,6 +71,9 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
     }
     for _ in 0..10_000 * scale {
         patterns::compare(ledger, &mut random);
+    }
+    for _ in 0..4_000 * scale {
+        shaders::random(ledger, &mut random);
     }
 }
 
@@ -276,6 +280,7 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
         }
         blocks::clip(ledger, patch, view);
         blocks::backface(ledger, patch, view);
+        shaders::trace(ledger, drawn);
         let levels = levels::level(ledger, patch, view, &drawn.state);
         for scheme in SCHEMES {
             let settings = Settings {

@@ -82,6 +82,14 @@ pub(crate) enum Quantity {
     D3d11Parameter,
     D3d11SetOff,
     D3d11Triangles,
+    DomainPaired,
+    DomainSequential,
+    DomainPower,
+    DomainFixed,
+    DomainFixedWeights,
+    DomainFixedPower,
+    HullDecision,
+    HullFactors,
 }
 
 /// A row of the table.
@@ -137,6 +145,16 @@ fn casteljau_curve(at: &At) -> f64 {
 
 fn casteljau_surface(at: &At) -> f64 {
     6.0 * rounding(at) + reference(at)
+}
+
+/// Weighted sums along u and along v: `spread` is what a weight's ulp makes of the largest point.
+fn weighted(at: &At) -> f64 {
+    rounding(at) * (24.0 * at.spread + 8.0) + reference(at)
+}
+
+/// Whether the weights' roundings count for more than those of products.
+pub(crate) fn weights_matter(at: &At) -> bool {
+    24.0 * at.spread > 8.0
 }
 
 /// A row whose items must be equal.
@@ -293,4 +311,31 @@ pub(crate) const TABLE: &[Row] = &[
          along another parameter less half of off, rounded up"),
     exact(Q::D3d11Triangles, "d3d11", "set of triangles", 5_000,
         "decisions"),
+    within(Q::DomainPaired, "domain", "f32, paired, 2^-24 of its terms' magnitudes", 20_000,
+        |_| 12.0,
+        "along u and along v: a weight in three roundings, its product, two sums"),
+    within(Q::DomainSequential, "domain", "f32, sequential, the same", 20_000,
+        |_| 14.0,
+        "the same with three sums"),
+    within(Q::DomainPower, "domain", "f32, power, 2^-24 of all products' magnitudes", 20_000,
+        |_| 0.3 * 18.0,
+        "a coefficient in three roundings, twice; three products and three sums, twice. 3/10 of \
+         that: terms of either sign cancel, and that all their roundings conspire has not been \
+         seen"),
+    within(Q::DomainFixed, "domain", "fixed point, paired and sequential, ulps", 20_000,
+        weighted,
+        "spread: the largest control point in ulps times 2^-weight_bits. Along u and along v the \
+         four weights are off by 12 roundings of theirs together, and four products by one each"),
+    within(Q::DomainFixedWeights, "domain", "of these, weights above the rest, ulps", 5_000,
+        weighted,
+        "the same bound where the weights' part is the greater: wide positions, few weight bits"),
+    within(Q::DomainFixedPower, "domain", "fixed point, power, ulps", 20_000,
+        |at| 15.0 * rounding(at) + reference(at),
+        "exact coefficients; three products along u, in each of four coefficients, and three \
+         along v"),
+    exact(Q::HullDecision, "hull", "decisions to insert a vertex", 100_000,
+        "compared where the distance from the threshold, and w from the near one, is more than \
+         f32 can be off by"),
+    exact(Q::HullFactors, "hull", "factors of patches", 300,
+        "counts, compared where no decision is within rounding"),
 ];

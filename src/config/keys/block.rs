@@ -168,8 +168,8 @@ pub(super) const KEYS: &[Key] = keys! {
         fifo: "waves"
     }
     "emit" {
-        interval: "an item is a vertex (a divide), or a triangle that brings none; unit d3d11: of a \
-                   wave its points or its triangles, whichever are more",
+        interval: "an item is a vertex (a divide), or a triangle that brings none; unit d3d11: of \
+                   a wave its points or its triangles, whichever are more",
         latency: "a pipelined reciprocal",
         in_flight: "17",
         fifo: "vertices and triangles"

@@ -80,24 +80,24 @@ pub(super) fn coefficients<D: Datapath>(d: D, points: &[D::Value; 16]) -> [D::Va
     net
 }
 
-/// The point of a net where the bases are `u` and `v`.
+/// The control points of the curve along v, from each row of a net: they depend on u alone.
 #[inline(always)]
-pub(super) fn surface<D: Datapath>(
+pub(super) fn rows<D: Datapath>(
     d: D,
     form: Form,
     net: &[D::Value; 16],
-    at: [&Basis<D>; 2],
-) -> D::Value {
-    match form {
-        Form::Paired => tensor(net, at, |b, p| paired(d, b, p)),
-        Form::Sequential => tensor(net, at, |b, p| sequential(d, b, p)),
-        Form::Power => tensor(net, at, |b, c| horner(d, b[0], c)),
-    }
+    u: &Basis<D>,
+) -> [D::Value; 4] {
+    let row = |i: usize| curve(d, form, u, [net[i], net[i + 1], net[i + 2], net[i + 3]]);
+    [row(0), row(4), row(8), row(12)]
 }
 
-/// `curve` along u on each row, and along v on what comes of them.
+/// The point of a cubic given by four control points or coefficients.
 #[inline(always)]
-fn tensor<B, V: Copy>(net: &[V; 16], [u, v]: [&B; 2], curve: impl Fn(&B, [V; 4]) -> V) -> V {
-    let row = |i: usize| curve(u, [net[i], net[i + 1], net[i + 2], net[i + 3]]);
-    curve(v, [row(0), row(4), row(8), row(12)])
+pub(super) fn curve<D: Datapath>(d: D, form: Form, b: &Basis<D>, p: [D::Value; 4]) -> D::Value {
+    match form {
+        Form::Paired => paired(d, b, p),
+        Form::Sequential => sequential(d, b, p),
+        Form::Power => horner(d, b[0], p),
+    }
 }

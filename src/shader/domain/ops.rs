@@ -119,3 +119,116 @@ pub fn patch(form: Form, widths: Widths) -> Ops {
 pub fn naive_point(form: Form, widths: Widths) -> Ops {
     point(form, widths).with(1, patch(form, widths))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::datapath::Datapath;
+    use super::super::form::{basis, coefficients, curve, rows};
+    use super::*;
+    use std::cell::Cell;
+
+    /// A datapath that does nothing but count.
+    #[derive(Clone, Copy)]
+    struct Counting<'a>(&'a Cell<Counts>);
+
+    #[derive(Clone, Copy, Debug, Default)]
+    struct Counts {
+        parameters: u64,
+        products: u64,
+        thrices: u64,
+        scales: u64,
+        triples: u64,
+        sums: u64,
+    }
+
+    impl Counting<'_> {
+        fn add(self, change: impl Fn(&mut Counts)) {
+            let mut counts = self.0.get();
+            change(&mut counts);
+            self.0.set(counts);
+        }
+    }
+
+    impl Datapath for Counting<'_> {
+        type Weight = ();
+        type Value = ();
+
+        fn parameter(self, _: u32) {
+            self.add(|c| c.parameters += 1);
+        }
+
+        fn product(self, (): (), (): ()) {
+            self.add(|c| c.products += 1);
+        }
+
+        fn thrice(self, (): ()) {
+            self.add(|c| c.thrices += 1);
+        }
+
+        fn scale(self, (): (), (): ()) {
+            self.add(|c| c.scales += 1);
+        }
+
+        fn triple(self, (): ()) {
+            self.add(|c| c.triples += 1);
+        }
+
+        fn sum(self, (): (), (): ()) {
+            self.add(|c| c.sums += 1);
+        }
+
+        fn difference(self, (): (), (): ()) {
+            self.add(|c| c.sums += 1);
+        }
+    }
+
+    /// [additions, multiplications] of what `work` does.
+    fn counted(widths: Widths, work: impl Fn(Counting<'_>)) -> [u64; 2] {
+        let cell = Cell::default();
+        work(Counting(&cell));
+        let c: Counts = cell.get();
+        // Of u and 1 - u, the second is a difference; x y z w.
+        let (adds, muls) = (c.parameters / 2 + 4 * c.sums, c.products + 4 * c.scales);
+        let thrices = c.thrices + 4 * c.triples;
+        match widths {
+            Widths::F32 => [adds, muls + thrices],
+            Widths::Fixed { .. } => [adds + thrices, muls],
+        }
+    }
+
+    #[test]
+    fn the_operations_are_those_of_the_code() {
+        for widths in [Widths::F32, Widths::Fixed { width: 32, weight_bits: 24 }] {
+            for form in Form::ALL {
+                let a_point = counted(widths, |d| {
+                    let (u, v) = (basis(d, form, 3), basis(d, form, 5));
+                    curve(d, form, &v, rows(d, form, &[(); 16], &u));
+                });
+                // Horner takes u as it is: of two parameters, none is a difference.
+                let spare = if form == Form::Power { 1 } else { 0 };
+                let got = point(form, widths);
+                assert_eq!([got.add, got.mul], [a_point[0] - spare, a_point[1]], "{form:?}");
+                let a_patch = counted(widths, |d| {
+                    if form == Form::Power {
+                        coefficients(d, &[(); 16]);
+                    }
+                });
+                let got = patch(form, widths);
+                assert_eq!([got.add, got.mul], a_patch, "{form:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn widths_are_those_of_the_formats() {
+        let w = Widths::Fixed { width: 32, weight_bits: 24 };
+        // Two parameters: 1 - u of 17 bits, 3 x twice of 25; 20 weighted points.
+        let got = point(Form::Paired, w);
+        assert_eq!([got.add, got.mul], [2 * (1 + 2) + 60, 2 * 6 + 80]);
+        assert_eq!(got.add_bits, 2 * (17 + 2 * 25) + 60 * 33);
+        assert_eq!(got.mul_bits, 2 * 6 * 25 * 25 + 80 * 25 * 33);
+        let got = naive_point(Form::Power, Widths::F32);
+        assert_eq!([got.add, got.mul], [60 + 8 * 20, 60 + 8 * 12]);
+        assert_eq!([got.add_bits, got.mul_bits], [220 * 24, 156 * 24 * 24]);
+    }
+}

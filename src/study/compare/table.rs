@@ -3,6 +3,7 @@
 use crate::output::summary::ratio;
 use crate::output::table::{bound, grouped, printable};
 use crate::report::{Frame, Report, Row};
+use rtl_model::counter::standard::Ops;
 use rtl_model::counter::{Block, Counter, Counters, Declaration};
 use std::fmt::Write;
 
@@ -76,6 +77,13 @@ impl Seen<'_> {
         self.has(block).then(|| Cell::Number(counters.map(|c| self.whole.counters.get(c)).sum()))
     }
 
+    /// Operations of all blocks; none where no block's are known.
+    fn ops(&self, of: impl Fn(&Ops) -> u64) -> Option<Cell> {
+        let known = || self.whole.work.iter().filter_map(|work| work.ops.as_ref());
+        known().next()?;
+        Some(Cell::Number(known().map(of).sum()))
+    }
+
     /// Where nothing is removed, every patch that is drawn is tessellated.
     fn tessellated(&self) -> Option<Cell> {
         let all = || {
@@ -122,14 +130,35 @@ fn lines(runs: &[Seen<'_>]) -> Vec<Line> {
     lines.push(heading("bytes of device memory"));
     lines.push(each("read", &|run| run.sum(Block::Memory, "bytes.read.")));
     lines.push(each("written", &|run| run.sum(Block::Memory, "bytes.written.")));
+    let shaders = runs.iter().any(|run| run.has(Block::Hull));
+    if shaders {
+        lines.push(heading("bytes of hull and domain shader"));
+        lines.push(total("hull shader, in", Block::Hull, C::HullBytesIn));
+        lines.push(total("  out", Block::Hull, C::HullBytesOut));
+        lines.push(each("domain shader, in", &|run| run.sum(Block::Domain, "bytes.in.")));
+        lines.push(total("  out", Block::Domain, C::DomainBytesOut));
+    }
     lines.push(heading("invocations"));
-    lines.push(total("control-point shader", Block::Transform, C::TransformInvocations));
-    lines.push(total("points evaluated", Block::Evaluate, C::EvaluateInvocations));
+    let either = |label: &str, [a, b]: [(Block, Counter); 2]| {
+        each(label, &|run: &Seen<'_>| run.total(a.0, a.1).or_else(|| run.total(b.0, b.1)))
+    };
+    let transform = (Block::Transform, C::TransformInvocations);
+    lines.push(either("control-point shader", [transform, (Block::Hull, C::HullThreads)]));
+    if shaders {
+        lines.push(total("patch-constant function", Block::Hull, C::HullInvocations));
+    }
+    let evaluate = (Block::Evaluate, C::EvaluateInvocations);
+    lines.push(either("points evaluated", [evaluate, (Block::Domain, C::DomainInvocations)]));
     lines.push(total("vertex shader", Block::VertexShader, C::VertexShaderInvocations));
     lines.push(heading("made"));
     lines.push(each("patches tessellated", &|run| run.tessellated()));
     lines.push(total("vertices", Block::Emit, C::EmitVertices));
     lines.push(total("triangles", Block::Emit, C::EmitTriangles));
+    lines.push(heading("arithmetic"));
+    lines.push(each("additions", &|run| run.ops(|ops| ops.add)));
+    lines.push(each("multiplications", &|run| run.ops(|ops| ops.mul)));
+    lines.push(each("  by bits of both sides", &|run| run.ops(|ops| ops.mul_bits)));
+    lines.push(each("comparisons", &|run| run.ops(|ops| ops.compare)));
     lines.push(heading("time"));
     lines.push(each("elapsed cycles", &|run| run.elapsed().map(Cell::Number)));
     lines.push(heading("verdict"));
@@ -276,6 +305,12 @@ made
   patches tessellated            2          -      -
   vertices                       0          0      -
   triangles                      8          8   1.00
+
+arithmetic
+  additions                      8          8   1.00
+  multiplications                2          2   1.00
+    by bits of both sides       60         60   1.00
+  comparisons                    0          0      -
 
 time
   elapsed cycles               200        200   1.00
