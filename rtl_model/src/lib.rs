@@ -11,6 +11,8 @@
 //!
 //! What flows from evaluate to stitch is a [`strip`]: two rows whose vertices are complete.
 //!
+//! [`d3d11`] is another unit's: the fixed-function tessellator, from factors to a pattern.
+//!
 //! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand
 //! above it in the list below, which is the order of the data.
 
@@ -44,3 +46,5 @@ pub mod attribute;
 pub mod stitch;
 
 pub mod emit;
+
+pub mod d3d11;

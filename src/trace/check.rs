@@ -69,7 +69,7 @@ pub(crate) fn invertible(matrix: &[f32; 16]) -> bool {
 
 fn frame(frame: &Frame) -> Checked {
     let sides = 1..=VIEWPORT_MAX;
-    if let Some(side) = frame.viewport.iter().find(|side| !sides.contains(side)) {
+    if let Some(side) = frame.viewport.into_iter().find(|side| !sides.contains(side)) {
         return Err(format!("viewport: found {side}, expected 1 to {VIEWPORT_MAX}"));
     }
     for (name, matrix) in [("view", &frame.view), ("projection", &frame.projection)] {

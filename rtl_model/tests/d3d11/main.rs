@@ -1,0 +1,3 @@
+//! The tessellator: against vectors bit for bit, and what its patterns promise for every factor.
+
+mod vectors;
