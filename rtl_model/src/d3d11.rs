@@ -22,6 +22,7 @@
 //! same factor agree about it, whatever else they have.
 
 mod factor;
+mod group;
 mod place;
 mod points;
 mod stitch;
@@ -115,10 +116,10 @@ impl Tessellator {
     pub fn accept(&mut self, factors: &Factors, output: Output) {
         self.point_count = factors.points();
         self.index_count = factors.indices(output);
-        grow(&mut self.points, self.point_count);
+        grow(&mut self.points, self.point_count + points::SLACK);
         grow(&mut self.indices, self.index_count + stitch::SLACK);
         self.lists.set(factors);
-        self.lists.write(factors, &mut self.points[..self.point_count]);
+        self.lists.write(factors, &mut self.points[..self.point_count + points::SLACK]);
         let indices = &mut self.indices[..self.index_count + stitch::SLACK];
         stitch::write(factors, output, indices);
     }

@@ -234,7 +234,9 @@ fn strips_are_what_they_say() {
             assert_eq!(strip.last, made == lists.strip_count());
             assert!(strip.count() > 0, "a strip without triangles");
             if let Kind::Zipper { steps } = strip.kind {
-                assert!(strip.count() <= 64 && steps.count_ones() == strip.inner_segments.into());
+                assert!(
+                    strip.count() <= 64 && steps.count_ones() == u32::from(strip.inner_segments)
+                );
                 cut += usize::from(strip.count() == 64);
                 assert_eq!(usize::from(strip.rows_needed), rows);
             }

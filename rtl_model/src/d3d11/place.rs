@@ -21,8 +21,16 @@
 use super::factor::Factor;
 use fixed::types::U16F16;
 
-/// Most points: factor 64.
-const POINTS_MAX: usize = 65;
+/// Points of a half-edge that are made at once, from the centre outwards, whether there are as many
+/// or not.
+const HANDFUL: usize = 12;
+
+/// Where the centre of a list is kept, and where its far half begins if it is odd: 33 points of a
+/// half-edge are three handfuls.
+const CENTRE: usize = 3 * HANDFUL;
+
+/// Room for both halves, the centre, and for runs that are copied by the handful.
+const ROOM: usize = 2 * CENTRE + 24;
 
 /// The middle and the end of an edge in U1.16.
 const HALF: u32 = 1 << 15;
@@ -43,21 +51,18 @@ const RECIPROCALS: [u32; 65] = {
 #[derive(Clone, Debug)]
 pub struct List {
     factor: Factor,
+    /// Where the points begin.
+    first: usize,
     count: usize,
-    ascending: [u32; POINTS_MAX],
-    /// The same from the other end, for what runs that way.
-    descending: [u32; POINTS_MAX],
+    /// Of no meaning before the first point and after the last.
+    parameters: [u32; ROOM],
 }
 
 impl Default for List {
     /// One segment.
     fn default() -> Self {
-        let mut list = Self {
-            factor: Factor::default(),
-            count: 2,
-            ascending: [0; POINTS_MAX],
-            descending: [0; POINTS_MAX],
-        };
+        let factor = Factor::default();
+        let mut list = Self { factor, first: CENTRE, count: 0, parameters: [0; ROOM] };
         list.fill();
         list
     }
@@ -65,6 +70,7 @@ impl Default for List {
 
 impl List {
     /// Makes this the list of `factor`; nothing to do where it is already.
+    #[inline]
     pub(super) fn set(&mut self, factor: Factor) {
         if factor != self.factor {
             self.factor = factor;
@@ -72,55 +78,67 @@ impl List {
         }
     }
 
-    /// The parameters, 0 to 65536.
+    /// The parameters, 0 to 65536. Number k from the other end is 65536 minus number k.
     #[must_use]
-    pub fn ascending(&self) -> &[u32] {
-        &self.ascending[..self.count]
+    pub fn parameters(&self) -> &[u32] {
+        &self.parameters[self.first..self.first + self.count]
     }
 
-    /// The parameters from the other end, 65536 to 0.
-    #[must_use]
-    pub fn descending(&self) -> &[u32] {
-        &self.descending[..self.count]
+    /// The number of the last parameter, which is the number of segments: 1 to 64.
+    pub(super) fn last(&self) -> usize {
+        self.count - 1
     }
 
+    /// The parameters, and after them at least 15 numbers that mean nothing.
+    pub(super) fn padded(&self) -> &[u32] {
+        &self.parameters[self.first..]
+    }
+
+    #[inline]
     fn fill(&mut self) {
         let (half, odd) = (self.factor.half(), usize::from(self.factor.odd));
         let (floor, points): (usize, usize) = (half.to_num(), half.ceil().to_num());
-        let split = split(floor, half, self.factor.odd);
         let t = half.frac().to_bits(); // U0.16
-        // Both partitions' steps, weighted: U1.32, at most 2^32 in sum, and a half-edge 2^31.
+        // Both partitions' steps, weighted: U1.32, 2^32 in sum where there is a single segment.
         let of_floor = RECIPROCALS[2 * floor - odd].wrapping_mul(ONE - t);
         let step = of_floor.wrapping_add(RECIPROCALS[2 * points - odd].wrapping_mul(t));
+        self.first = CENTRE - points;
         self.count = 2 * points + 1 - odd;
-        let last = self.count - 1;
-        let mut at = HALF; // half an ulp
-        for p in 0..points {
-            let parameter = at >> 16;
-            self.ascending[p] = parameter;
-            self.ascending[last - p] = ONE - parameter;
-            self.descending[last - p] = parameter;
-            self.descending[p] = ONE - parameter;
-            // The point after the split is the same one of the floor partition.
-            at = at.wrapping_add(step).wrapping_sub(if p == split { of_floor } else { 0 });
+        self.parameters[CENTRE] = HALF; // an odd list's far half has its first point here
+        // From the centre outwards, so that what is too many lies outside: number q of a half is
+        // point p = points - 1 - q, and before the split where q is not below this.
+        let split = points as i32 - 1 - split(floor, half, self.factor.odd);
+        let last = (1_u32 << 15).wrapping_add((points as u32 - 1).wrapping_mul(step)); // half an ulp
+        let (mut step_back, mut number) = ([0_u32; 4], [0_i32, 1, 2, 3]);
+        for k in 0..4 {
+            step_back[k] = last.wrapping_sub(step.wrapping_mul(k as u32));
         }
-        if odd == 0 {
-            self.ascending[points] = HALF;
-            self.descending[points] = HALF;
+        for handful in 0..points.div_ceil(HANDFUL) {
+            let near = CENTRE - HANDFUL * (handful + 1);
+            let far = CENTRE + 1 - odd + HANDFUL * handful;
+            for four in 0..HANDFUL / 4 {
+                for k in 0..4 {
+                    // The point after the split is the same one of the floor partition.
+                    let back = if number[k] < split { of_floor } else { 0 };
+                    let parameter = step_back[k].wrapping_sub(back) >> 16;
+                    self.parameters[near + HANDFUL - 1 - 4 * four - k] = parameter;
+                    self.parameters[far + 4 * four + k] = ONE.wrapping_sub(parameter);
+                    step_back[k] = step_back[k].wrapping_sub(step << 2);
+                    number[k] += 4;
+                }
+            }
         }
     }
 }
 
 /// The point of the half-edge that splits: the next one of the ruler's order. Past all points where
 /// there is nothing between the partitions.
-fn split(floor: usize, half: U16F16, odd: bool) -> usize {
-    if half.frac() == 0 {
-        return usize::MAX;
-    }
+fn split(floor: usize, half: U16F16, odd: bool) -> i32 {
     let without_top_bit = |n: usize| n ^ (1 << n.ilog2());
-    match (odd, floor) {
+    let split = match (odd, floor) {
         (true, 1) => 0,
         (true, _) => (without_top_bit(floor - 1) << 1) + 1,
         (false, _) => (without_top_bit(floor) << 1) + 1,
-    }
+    };
+    if half.frac() == 0 { 64 } else { split as i32 }
 }

@@ -20,11 +20,19 @@
 //! triangle are those of the two rows' points plus constants. What is written too many is
 //! overwritten by what follows.
 
-use super::walk::{self, Half, Middle};
+use super::group::{GROUPS, Group, Next, PAIRS, STEPS};
+use super::walk::{self, Walk};
 use super::{Domain, Factors, Output};
 
 /// Indices after the last one that may be written: their values mean nothing.
-pub(super) const SLACK: usize = 32;
+pub(super) const SLACK: usize = 96;
+
+/// Groups of a walk that are made before it is asked whether it ends, and their numbers.
+const BLOCK: usize = 4;
+const BLOCK_NUMBERS: usize = 3 * STEPS * BLOCK;
+
+/// Why a handful of numbers can be written.
+const ROOM: &str = "there are more places than numbers";
 
 /// Marks the numbers of the inner row while a ring is closed: 4225 points leave bit 15 free.
 const INNER: u16 = 1 << 15;
@@ -56,7 +64,11 @@ fn lines(factors: &Factors, out: &mut [u16]) {
     }
 }
 
-/// A row of points: the number of the first, and 1 or -1 (as a u16) from each to the next.
+/// From a row's point to its next one: 1, or -1.
+const UP: u16 = 1;
+const DOWN: u16 = u16::MAX;
+
+/// A row of points: the number of the first, and from each to the next [`UP`] or [`DOWN`].
 #[derive(Clone, Copy)]
 struct Row {
     first: u16,
@@ -87,19 +99,34 @@ impl<const SIDES: usize> Ring<SIDES> {
         self.segments.iter().sum()
     }
 
+    /// The number that the point after the last would have.
+    fn end(&self) -> usize {
+        self.first + self.count()
+    }
+
+    /// The ring inside, where there is one, of the inner partition.
+    fn inside(&self) -> Self {
+        Self { first: self.end(), segments: self.segments.map(|segments| segments - 2) }
+    }
+
     /// Whether the inner partition ends here, in a line or a point.
     fn is_line(&self) -> bool {
         self.segments.contains(&0)
     }
 
+    /// Whether there are triangles inside, but no ring.
+    fn is_centre(&self) -> bool {
+        self.segments.contains(&1)
+    }
+
     /// The row of a side whose first point is `passed` points from the ring's first.
     fn row(&self, passed: usize) -> Row {
-        let length = self.segments.iter().max().expect("a ring has sides");
-        if self.is_line() && passed >= *length {
+        let length = *self.segments.iter().max().expect("a ring has sides");
+        if self.is_line() && passed >= length {
             // There and back again.
-            Row { first: (self.first + 2 * length - passed) as u16, step: u16::MAX }
+            Row { first: (self.first + 2 * length - passed) as u16, step: DOWN }
         } else {
-            Row { first: (self.first + passed) as u16, step: 1 }
+            Row { first: (self.first + passed) as u16, step: UP }
         }
     }
 }
@@ -134,151 +161,206 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
 
     /// All rings from the edges inwards; `inner` are the segments of the inner partition along each
     /// side. The innermost ring, if there is something in it still.
+    #[inline(always)]
     fn rings<const SIDES: usize>(
         &mut self,
         edges: Ring<SIDES>,
         inner: [usize; SIDES],
     ) -> Option<Ring<SIDES>> {
-        let mut outer = edges;
-        let mut left = inner;
-        loop {
-            left = left.map(|segments| segments - 2);
-            let ring = Ring { first: outer.first + outer.count(), segments: left };
-            let (mut outside, mut inside) = (0, 0);
-            for (side, &inner) in inner.iter().enumerate() {
-                let begin = self.at;
-                let rows = [outer.row(outside), ring.row(inside)];
-                let mut marked = rows;
-                if side == SIDES - 1 {
-                    marked[1].first |= INNER;
-                }
-                if outer.first == 0 {
-                    self.transition(marked, outer.segments[side], inner);
-                } else {
-                    self.strip(marked, outer.segments[side]);
-                }
-                if side == SIDES - 1 {
-                    self.close(begin, &outer, &ring);
-                }
-                outside += outer.segments[side];
-                inside += ring.segments[side];
+        let mut ring = Ring { first: edges.count(), segments: inner.map(|segments| segments - 2) };
+        self.transitions(&edges, &ring, inner);
+        while !ring.is_line() && !ring.is_centre() {
+            let inside = ring.inside();
+            if inside.is_line() {
+                self.strips_on_line(&ring, &inside);
+            } else {
+                self.strips(&ring, &inside);
             }
-            outer = ring;
-            if ring.is_line() {
-                return None;
-            }
-            if ring.segments.contains(&1) {
-                return Some(ring);
-            }
+            ring = inside;
         }
+        ring.is_centre().then_some(ring)
     }
 
-    /// Lets the ends of the rings' last sides, of which the indices from `begin` on are made, be
-    /// their first points.
-    fn close<const SIDES: usize>(
+    #[inline(always)]
+    fn transitions<const SIDES: usize>(
         &mut self,
-        begin: usize,
-        outer: &Ring<SIDES>,
-        inner: &Ring<SIDES>,
+        edges: &Ring<SIDES>,
+        ring: &Ring<SIDES>,
+        inner: [usize; SIDES],
     ) {
-        let outer_end = (outer.first + outer.count()) as u16;
-        // A line is not closed: its first point is where the way back ends.
-        let inner_end = INNER | (inner.first + inner.count()) as u16;
-        for index in &mut self.out[begin..self.at] {
-            *index = match *index {
-                end if end == outer_end => outer.first as u16,
-                end if end == inner_end => inner.first as u16,
-                other => other & !INNER,
-            };
+        let (mut outside, mut inside) = (0, 0);
+        for side in 0..SIDES - 1 {
+            self.transition(
+                outside as u16,
+                ring.row(inside),
+                walk::walk(inner[side], edges.segments[side]),
+            );
+            outside += edges.segments[side];
+            inside += ring.segments[side];
         }
+        let begin = self.at;
+        let mut row = ring.row(inside);
+        row.first |= INNER;
+        let last = walk::walk(inner[SIDES - 1], edges.segments[SIDES - 1]);
+        self.transition(outside as u16, row, last);
+        self.close(begin, ring);
     }
 
-    /// The strip between an edge of `segments` and the outermost ring; `inner` are the segments of
-    /// the inner partition, two more than the ring has.
-    fn transition(&mut self, [outer, inner]: [Row; 2], segments: usize, inner_segments: usize) {
-        let (half, middle) = walk::walk(inner_segments + 1, segments + 1);
-        let [o, i] = [segments / 2, inner_segments / 2 - 1]; // segments of a half
-        self.half(half, outer.first, inner);
-        let [o, i] = [
-            [outer.at(o), outer.at(segments - o)],
-            [inner.at(i), inner.at(inner_segments - 2 - i)],
-        ];
-        match middle {
-            Middle::Nothing => {}
-            Middle::Inner => self.put([i[0], i[1], o[0]]),
-            Middle::Outer => self.put([i[0], o[1], o[0]]),
-            Middle::Both => {
-                self.put([i[0], i[1], o[0]]);
-                self.put([i[1], o[1], o[0]]);
+    /// Lets the last transition, from index `begin` on, end at the first points of the edges and of
+    /// the ring.
+    #[inline(always)]
+    fn close<const SIDES: usize>(&mut self, begin: usize, ring: &Ring<SIDES>) {
+        let outer_end = ring.first as u16;
+        // A line is not closed, and never comes to its end: the way back ends at its first point.
+        let (inner_first, inner_end) = (ring.first as u16, INNER | ring.end() as u16);
+        let mut at = begin;
+        while at < self.at {
+            let block: &mut [u16; 64] = self.out[at..].first_chunk_mut().expect(ROOM);
+            for number in block {
+                let inner = if *number == inner_end { inner_first } else { *number & !INNER };
+                *number = if *number == outer_end { 0 } else { inner };
             }
+            at += 64;
         }
-        self.half(half.mirrored(), o[1], Row { first: i[1], ..inner });
     }
 
-    fn half(&mut self, half: Half, mut outer: u16, mut inner: Row) {
-        for k in 0..half.count {
-            if half.steps >> k & 1 == 1 {
-                let next = inner.at(1);
-                self.put([inner.first, next, outer]);
-                inner.first = next;
-            } else {
-                self.put([outer, inner.first, outer + 1]);
-                outer += 1;
+    /// The strip between an edge and the outermost ring.
+    #[inline(always)]
+    fn transition(&mut self, outer: u16, inner: Row, walk: Walk) {
+        let groups = &GROUPS[usize::from(CLOCKWISE)][usize::from(inner.step == DOWN)].walk;
+        let (begin, end) = (self.at, self.at + 3 * walk.count);
+        let (mut steps, mut next) = (walk.steps, Next::new(outer, inner.first));
+        loop {
+            let mut now = steps as u32; // BLOCK * STEPS of them
+            let out: &mut [u16; BLOCK_NUMBERS + 1] =
+                self.out[self.at..].first_chunk_mut().expect(ROOM);
+            for k in 0..BLOCK {
+                let group = &groups[now as usize % (1 << STEPS)];
+                let (out, _) = out[3 * STEPS * k..].as_chunks_mut();
+                group.write(&mut next, out.first_chunk_mut().expect(ROOM));
+                now >>= STEPS;
             }
+            self.at += BLOCK_NUMBERS;
+            if self.at >= end {
+                break;
+            }
+            steps >>= BLOCK * STEPS;
+        }
+        self.at = end;
+        // The one across the middle begins at the inner row; where there is none, what is turned
+        // means nothing.
+        let middle = walk.outer_middle.map_or(end, |k| begin + 3 * k);
+        let [a, b, c] = *self.triangle(middle);
+        *self.triangle(middle) = if CLOCKWISE { [c, a, b] } else { [b, c, a] };
+    }
+
+    /// The strips of a ring around another one.
+    #[inline(always)]
+    fn strips<const SIDES: usize>(&mut self, outer: &Ring<SIDES>, inner: &Ring<SIDES>) {
+        let (mut o, mut i) = (outer.first as u16, inner.first as u16);
+        for &segments in &outer.segments {
+            self.strip(o, Row { first: i, step: UP }, segments);
+            o += segments as u16;
+            i += segments as u16 - 2;
+        }
+        // The last side ends at the first points.
+        let segments = outer.segments[SIDES - 1];
+        let [outer, inner] = [outer.first as u16, inner.first as u16];
+        let (at, o, i) = (self.at, o - 1, i - 1); // the points before those
+        *self.triangle(at - 3) = turned::<CLOCKWISE>([o, inner, outer]);
+        *self.triangle(at - 6) =
+            turned::<CLOCKWISE>(if segments == 3 { [o - 1, inner, o] } else { [i, inner, o] });
+        if segments == 3 {
+            *self.triangle(at - 9) = turned::<CLOCKWISE>([o - 1, i, inner]);
         }
     }
 
-    /// The strip between a side of `segments` and one of two less.
-    fn strip(&mut self, [outer, inner]: [Row; 2], segments: usize) {
-        self.put([outer.at(0), inner.at(0), outer.at(1)]);
+    /// The strips of a ring around a line or a point.
+    fn strips_on_line<const SIDES: usize>(&mut self, outer: &Ring<SIDES>, inner: &Ring<SIDES>) {
+        let (mut o, mut inside) = (outer.first as u16, 0);
+        for &segments in &outer.segments {
+            self.strip(o, inner.row(inside), segments);
+            o += segments as u16;
+            inside += segments - 2;
+        }
+        let at = self.at;
+        *self.triangle(at - 3) =
+            turned::<CLOCKWISE>([o - 1, inner.first as u16, outer.first as u16]);
+    }
+
+    /// The strip between a side of `segments`, 2 to 62, and one of two less.
+    #[inline(always)]
+    fn strip(&mut self, outer: u16, inner: Row, segments: usize) {
+        let groups = &GROUPS[usize::from(CLOCKWISE)][usize::from(inner.step == DOWN)];
         let pairs = segments - 2;
-        for k in 0..pairs {
-            let [a, b, c, d] = [outer.at(k + 1), outer.at(k + 2), inner.at(k), inner.at(k + 1)];
-            if 2 * k < pairs {
-                self.put([a, c, d]);
-                self.put([a, d, b]);
-            } else {
-                self.put([c, b, a]);
-                self.put([c, d, b]);
-            }
+        let first = pairs.div_ceil(2);
+        let begin = self.at;
+        // The first triangle makes the pairs of one half those of a group, three numbers on.
+        self.pairs(&groups.first, Next::new(outer, inner.first), begin + 6 * first + 3);
+        let next = Next::new(outer + 1 + first as u16, inner.at(first));
+        self.pairs(&groups.second, next, begin + 6 * pairs + 3);
+        let o = outer + segments as u16;
+        self.put([o - 1, inner.at(pairs), o]);
+    }
+
+    /// Pairs up to index `end`.
+    #[inline(always)]
+    fn pairs(&mut self, group: &Group<3>, mut next: Next, end: usize) {
+        while self.at < end {
+            let (out, _) = self.out[self.at..].as_chunks_mut();
+            group.write(&mut next, out.first_chunk_mut().expect(ROOM));
+            self.at += 6 * PAIRS;
         }
-        self.put([outer.at(segments - 1), inner.at(pairs), outer.at(segments)]);
+        self.at = end;
     }
 
     /// The strip that an odd axis of a quad ends in: a ring of which two sides have one segment.
     fn centre(&mut self, ring: Ring<4>) {
         let [tall, wide, ..] = ring.segments;
-        let (first, last) = (ring.first as u16, (ring.first + ring.count() - 1) as u16);
-        // The lower side and the upper one, or the left side and the right one.
-        let (low, high, length) =
-            if wide > tall { (first + 1, last + 1, wide) } else { (first, last, tall) };
-        let even = wide > tall || length.is_multiple_of(2);
-        for k in 0..length {
-            let high = |k: usize| {
-                let number = high - k as u16;
-                if wide > tall && k == 0 { first } else { number }
-            };
-            let low = |k: usize| low + k as u16;
-            if even {
-                self.put([high(k), low(k + 1), low(k)]);
-                self.put([high(k), high(k + 1), low(k + 1)]);
-            } else if k == length / 2 {
-                self.put([low(k), high(k), high(k + 1)]);
-                self.put([low(k), high(k + 1), low(k + 1)]);
+        let (first, last) = (ring.first as u16, ring.end() as u16 - 1);
+        if wide > tall {
+            // From the left: the upper side begins at the first point, the lower at the second.
+            let upper = |k: u16| if k == 0 { first } else { last + 1 - k };
+            for k in 0..wide as u16 {
+                self.put([upper(k), first + k + 2, first + k + 1]);
+                self.put([upper(k), upper(k + 1), first + k + 2]);
+            }
+            return;
+        }
+        for k in 0..tall as u16 {
+            let [[a, b], [c, d]] = [[first + k, first + k + 1], [last - k, last - k - 1]];
+            if tall.is_multiple_of(2) {
+                self.put([c, b, a]);
+                self.put([c, d, b]);
+            } else if usize::from(k) == tall / 2 {
+                self.put([a, c, d]);
+                self.put([a, d, b]);
             } else {
-                self.put([low(k), high(k), low(k + 1)]);
-                self.put([high(k), high(k + 1), low(k + 1)]);
+                self.put([a, c, b]);
+                self.put([c, d, b]);
             }
         }
     }
 
+    /// The next `N` places.
     #[inline(always)]
-    fn put(&mut self, [a, b, c]: [u16; 3]) {
-        self.out[self.at..self.at + 3].copy_from_slice(&if CLOCKWISE {
-            [a, c, b]
-        } else {
-            [a, b, c]
-        });
+    fn next<const N: usize>(&mut self) -> &mut [u16; N] {
+        self.out[self.at..].first_chunk_mut().expect(ROOM)
+    }
+
+    #[inline(always)]
+    fn triangle(&mut self, at: usize) -> &mut [u16; 3] {
+        self.out[at..].first_chunk_mut().expect("a triangle that was made")
+    }
+
+    #[inline(always)]
+    fn put(&mut self, triangle: [u16; 3]) {
+        *self.next() = turned::<CLOCKWISE>(triangle);
         self.at += 3;
     }
+}
+
+/// A triangle that is given counter-clockwise.
+fn turned<const CLOCKWISE: bool>([a, b, c]: [u16; 3]) -> [u16; 3] {
+    if CLOCKWISE { [a, c, b] } else { [a, b, c] }
 }

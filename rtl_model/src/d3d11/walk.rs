@@ -2,35 +2,39 @@
 //!
 //! A transition joins an edge to the ring inside it, which has another factor. The rows are walked
 //! from a corner to the middle; each advances once for each of its segments, in the order in which
-//! the points would appear as a factor grows (the ruler's order). A row's point has the same place
-//! in that order whatever the counts, so this is a table of 33 places compared with two counts, and
+//! the points would appear as a factor grows (the ruler's order). A point has the same place in
+//! that order whatever the counts, so this is a table of 33 places compared with two counts, and
 //! the hardware needs no error term as Bresenham's walk does. The second half is the first one
-//! mirrored.
+//! mirrored, after what stands across the middle.
 //!
 //! ```text
-//!   outer  o───o─────o───o───┄  mid      bit 0: the triangle stands on the outer row
-//!          │ ╲ │ ╲ ╱ │  ╱
-//!   inner  i───┴──i──┴─i─────┄           bit 1: on the inner row
+//!   outer  o───o───o─────o───┄    0: the triangle stands on the outer row,
+//!          │ ╱ │ ╱  ╲   ╱ ╲
+//!   inner  i───┴──i──┴─i─────┄    1: it stands on the inner one
 //! ```
 
-/// In which order the half-edge's points appear, by their place from the corner to the middle: a
-/// row of n half-edge points has those below n.
+/// In which order the points of half an edge appear, by their place from the corner to the middle:
+/// a row of n has those below n.
 const RULER: [u8; 33] = [
     0, 32, 16, 8, 17, 4, 18, 9, 19, 2, 20, 10, 21, 5, 22, 11, 23, 1, 24, 12, 25, 6, 26, 13, 27, 3,
     28, 14, 29, 7, 30, 15, 31,
 ];
 
-/// Most half-edge points without an odd row's last: 32.
+/// Most segments of half a row, without one across the middle: 32.
 const HALF_MAX: usize = 32;
 
-/// The walks from a corner to the middle, by half-edge points of the inner and the outer row.
-static HALVES: [[u64; HALF_MAX + 1]; HALF_MAX + 1] = {
-    let mut table = [[0; HALF_MAX + 1]; HALF_MAX + 1];
-    let mut inner = 0;
+/// Half a walk, and the same from the middle to the corner: bit k for triangle k.
+type Half = [u64; 2];
+
+/// The walks of a half by the segments of half a row: of the inner partition (the ring has one
+/// less), and of the outer row.
+static HALVES: [[Half; HALF_MAX + 1]; HALF_MAX + 1] = {
+    let mut table = [[[0; 2]; HALF_MAX + 1]; HALF_MAX + 1];
+    let mut inner = 1;
     while inner <= HALF_MAX {
         let mut outer = 0;
         while outer <= HALF_MAX {
-            table[inner][outer] = half(inner as u8, outer as u8);
+            table[inner][outer] = half(inner, outer);
             outer += 1;
         }
         inner += 1;
@@ -38,62 +42,46 @@ static HALVES: [[u64; HALF_MAX + 1]; HALF_MAX + 1] = {
     table
 };
 
-const fn half(inner: u8, outer: u8) -> u64 {
+const fn half(inner: usize, outer: usize) -> Half {
     let mut steps = 0;
-    let mut at = if outer > 0 { 1 } else { 0 }; // the corner's own triangle stands outside
+    let mut count = if outer > 0 { 1 } else { 0 }; // the corner's triangle stands on the outer row
     let mut place = 1;
     while place < RULER.len() {
-        if RULER[place] < inner {
-            steps |= 1 << at;
-            at += 1;
+        if (RULER[place] as usize) < inner {
+            steps |= 1 << count;
+            count += 1;
         }
-        if RULER[place] < outer {
-            at += 1;
+        if (RULER[place] as usize) < outer {
+            count += 1;
         }
         place += 1;
     }
-    steps
+    assert!(count == inner - 1 + outer);
+    let mirrored = if count == 0 { 0 } else { (steps as u64).reverse_bits() >> (64 - count) };
+    [steps, mirrored]
 }
 
-/// Half of a walk: bit k says whether triangle k stands on the inner row. At most 63.
+/// A walk from corner to corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Half {
-    pub(super) steps: u64,
-    pub(super) count: u32,
+pub(super) struct Walk {
+    /// Bit k says whether triangle k stands on the inner row.
+    pub(super) steps: u128,
+    /// Triangles: one a segment of either row, 1 to 126.
+    pub(super) count: usize,
+    /// The triangle on the outer row's segment across the middle, if there is one.
+    pub(super) outer_middle: Option<usize>,
 }
 
-impl Half {
-    /// The same from the middle to the corner.
-    pub(super) fn mirrored(self) -> Self {
-        let steps = self.steps.reverse_bits().checked_shr(64 - self.count).unwrap_or(0);
-        Self { steps, count: self.count }
-    }
-}
-
-/// What stands across the middle of a side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Middle {
-    /// A point of each row.
-    Nothing,
-    /// A segment of the inner row, and a point of the outer one.
-    Inner,
-    /// A segment of the outer row, and a point of the inner one.
-    Outer,
-    /// A segment of each: two triangles.
-    Both,
-}
-
-/// The walk from the corner to the middle and what is there, by the rows' points: the inner one's
-/// count includes the two that are on the edges.
-pub(super) fn walk(inner: usize, outer: usize) -> (Half, Middle) {
-    let (inner_half, outer_half) = ((inner - 1) / 2, (outer - 1) / 2);
-    let steps = HALVES[inner_half][outer_half];
-    let count = (inner_half - 1 + outer_half) as u32;
-    let middle = match (inner % 2, outer % 2) {
-        (1, 1) => Middle::Nothing,
-        (1, _) => Middle::Outer,
-        (_, 1) => Middle::Inner,
-        _ => Middle::Both,
-    };
-    (Half { steps, count }, middle)
+/// The walk between the ring inside a partition of `inner` segments, 2 to 64, and a row of `outer`,
+/// 1 to 64. (The ring has two segments less.)
+#[inline]
+pub(super) fn walk(inner: usize, outer: usize) -> Walk {
+    let [first, second] = HALVES[inner / 2][outer / 2];
+    let half = inner / 2 - 1 + outer / 2; // 0 to 63
+    // Across the middle: the inner row's segment, then the outer row's.
+    let [inner_middle, outer_middle] = [inner % 2, outer % 2];
+    let after = half + inner_middle + outer_middle;
+    let steps = u128::from(first) | (inner_middle as u128) << half | u128::from(second) << after;
+    let count = after + half;
+    Walk { steps, count, outer_middle: (outer_middle == 1).then_some(half + inner_middle) }
 }
