@@ -63,6 +63,13 @@ if ! command -v verilator >/dev/null || ! command -v yosys >/dev/null || ! comma
             verilator yosys g++ make; } >/dev/null || echo "apt-get cannot install verilator, yosys"
     fi
 fi
+# Mesa's software OpenGL has a tessellator to compare ours with; it is loaded when the test runs.
+if command -v dpkg >/dev/null && ! dpkg -s libegl1 libgl1-mesa-dri >/dev/null 2>&1; then
+    if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+        { apt-get update -qq && apt-get install -y -qq --no-install-recommends \
+            libegl1 libgl1-mesa-dri; } >/dev/null || echo "apt-get cannot install Mesa"
+    fi
+fi
 need cc "install a C compiler (Debian: gcc libc6-dev)"
 need cargo "install Rust 1.90 or newer from https://rustup.rs"
 need git "install git; a rule of tests/tidy.rs asks it for the tracked files"

@@ -33,6 +33,8 @@ fn forbidden_words_are_found_in_code_and_nowhere_else() {
     caught("rtl_model/src/a.rs", "fn f() { unsafe { g() } }", "unsafe");
     caught("rtl_model/tests/lockstep/main.rs", "fn f() { unsafe { g() } }", "unsafe");
     passes("rtl_model/tests/lockstep/verilated.rs", "fn f() { unsafe { g() } }");
+    caught("tests/driver/main.rs", "fn f() { unsafe { g() } }", "unsafe");
+    passes("tests/driver/gl.rs", "fn f() { unsafe { g() } }");
     caught("rtl_model/tests/lockstep/verilated.rs", "fn f() { todo!() }", "todo!");
     passes("src/a.rs", "// todo!()\n/* dbg!() /* unsafe */ unsafe */ fn f() {}");
     passes("src/a.rs", "const A: &str = \"todo!() \\\" unsafe\"; const B: char = '\"';");
