@@ -367,8 +367,8 @@ impl Config {
     }
 
     /// The same configuration with what it leaves to be derived from itself written out:
-    /// `evaluate.guard`, what the unit does whatever is set, and `level.criterion` where only its
-    /// number was given. A bus whose numbers were changed is named no more.
+    /// `evaluate.guard`, `domain.form`, what the unit does whatever is set, and `level.criterion`
+    /// where only its number was given. A bus whose numbers were changed is named no more.
     #[must_use]
     pub fn effective(&self) -> Self {
         let mut effective = self.clone();
@@ -377,6 +377,7 @@ impl Config {
         effective.emit.divide = self.divides();
         effective.level.criterion = self.level.chosen();
         effective.level.union = self.union();
+        effective.domain.form = Some(self.form());
         effective.link.bus = self.link.bus();
         effective
     }

@@ -117,8 +117,9 @@ pub struct Tessellator {
 pub struct Domain {
     /// How often it reads the control points.
     pub shader: DomainKind,
-    /// In which form it evaluates.
-    pub form: Form,
+    /// In which form it evaluates; absent: as its kind does ([`Config::form`]).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<Form>,
     /// In which numbers.
     pub arithmetic: Arithmetic,
     /// Fraction bits of a weight, 16..=30 ([`Arithmetic::Fixed`]).
@@ -147,7 +148,7 @@ impl Default for Domain {
     fn default() -> Self {
         Self {
             shader: DomainKind::Basis,
-            form: Form::Paired,
+            form: None,
             arithmetic: Arithmetic::F32,
             weight_bits: 24,
             cache_entries: None,
@@ -159,9 +160,19 @@ impl Default for Domain {
 }
 
 impl Config {
+    /// The form in which the domain shader evaluates: as configured, else the whole product for a
+    /// naive one, and the paired form otherwise.
+    #[must_use]
+    pub fn form(&self) -> Form {
+        self.domain.form.unwrap_or(match self.domain.shader {
+            DomainKind::Naive => Form::Power,
+            DomainKind::Basis => Form::Paired,
+        })
+    }
+
     /// Whether the domain shader gives the same bits from either end of an edge.
     #[must_use]
     pub fn is_order_invariant(&self) -> bool {
-        self.domain.form == Form::Paired
+        self.form() == Form::Paired
     }
 }

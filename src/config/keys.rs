@@ -161,11 +161,12 @@ const PLAIN: &[Key] = &[
          product of it, or once a patch (unit d3d11)",
         "naive or basis",
     ),
-    key(
+    optional(
         "domain.form",
         "in which form it evaluates: Bernstein sums that are the same from either end of an edge, \
-         those from left to right, or the power basis; only paired has no cracks",
+         those from left to right, or the power basis; in f32 only paired is without cracks",
         "paired, sequential or power",
+        ("\"paired\"", "paired under basis, power under naive"),
     ),
     key(
         "domain.arithmetic",

@@ -62,7 +62,7 @@ impl Formats {
             register: w + u64::from(config.guard()) + 3,
             attribute: config.attributes.width.into(),
             screen: 16 + u64::from(config.emit.subpixel_bits),
-            form: config.domain.form,
+            form: config.form(),
             domain: match config.domain.arithmetic {
                 Arithmetic::F32 => Widths::F32,
                 Arithmetic::Fixed => {

@@ -48,7 +48,7 @@ pub(crate) fn random(ledger: &mut Ledger, random: &mut Random) {
     let near = random.single(0.0, 0.3) * largest;
     let viewport = [random.integer(1, 16384), random.integer(1, 4096)];
     let pixels = random.octaves(0.05, 3000.0) as f32;
-    let candidates = random.integer(1, hull::CANDIDATES_MAX);
+    let candidates = random.integer(1, tessim::config::d3d11::CANDIDATES_MAX);
     distances(ledger, &points, hull::Settings { candidates, pixels, viewport, near });
 }
 

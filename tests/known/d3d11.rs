@@ -17,7 +17,8 @@ pub(super) fn vary(random: &mut random::Random, config: &mut Config) {
     config.hull.candidates = 1 + random.integer(0, 19);
     config.hull.to_memory = random.integer(0, 1) > 0;
     config.domain.shader = random.of([DomainKind::Naive, DomainKind::Basis]);
-    config.domain.form = random.of([Form::Paired, Form::Sequential, Form::Power]);
+    config.domain.form =
+        random.of([None, Some(Form::Paired), Some(Form::Sequential), Some(Form::Power)]);
     config.domain.arithmetic = random.of([Arithmetic::F32, Arithmetic::Fixed]);
     config.domain.weight_bits = 16 + random.integer(0, 14);
     config.domain.cache_entries = random.of([None, Some(0), Some(1), Some(16), Some(500)]);

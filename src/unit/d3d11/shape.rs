@@ -53,8 +53,8 @@ impl Shape {
             last: None,
             waves: Waves::new(domain.cache_entries, domain.width as u16),
             evaluate: match domain.arithmetic {
-                Arithmetic::F32 => Evaluate::F32(Single::new(domain.form)),
-                Arithmetic::Fixed => Evaluate::Fixed(Fixed::new(domain.form, settings)),
+                Arithmetic::F32 => Evaluate::F32(Single::new(config.form())),
+                Arithmetic::Fixed => Evaluate::Fixed(Fixed::new(config.form(), settings)),
             },
             interval: costs.interval.into(),
         }
