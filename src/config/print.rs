@@ -78,10 +78,10 @@ mod tests {
         config.block.evaluate.setup = 3;
         config.block.evaluate.costs.lanes = 2;
         config.block.emit.lane_order = LaneOrder::RoundRobin;
-        assert_eq!(reread(&config.to_commented_toml()), config);
+        assert_eq!(reread(&config.to_commented_toml()), config.effective());
         for bus in Bus::all() {
             config.link.take(bus);
-            assert_eq!(reread(&config.to_commented_toml()), config);
+            assert_eq!(reread(&config.to_commented_toml()), config.effective());
             config.link.request = 100;
             assert_eq!(reread(&config.to_commented_toml()), config.effective());
         }
