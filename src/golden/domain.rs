@@ -6,7 +6,7 @@
 
 use super::{Real, evaluate};
 
-/// [N] of paper 004, Eq. 4, from u^3 down to 1.
+/// `[N]` of paper 004, Eq. 4, from u^3 down to 1.
 const N: [[f64; 4]; 4] =
     [[-1.0, 3.0, -3.0, 1.0], [3.0, -6.0, 3.0, 0.0], [-3.0, 3.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]];
 
@@ -35,7 +35,7 @@ pub fn magnitude(points: &[Real; 16], u: f64, v: f64) -> Real {
     evaluate::surface(&points.map(|p| p.map(f64::abs)), u, v)
 }
 
-/// The sum of the magnitudes of all products in [U][N][B][M]^T[V].
+/// The sum of the magnitudes of all products in `[U][N][B][M]^T[V]`.
 #[must_use]
 pub fn power_magnitude(points: &[Real; 16], u: f64, v: f64) -> Real {
     let weight = |t: f64, j: usize| -> f64 {

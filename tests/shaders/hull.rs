@@ -52,6 +52,40 @@ fn decisions_are_the_same_from_either_end() {
     assert!(compared > 500_000 && inserted > compared / 10 && inserted < compared / 10 * 9);
 }
 
+/// The least threshold, as the bits of a positive single, at which bit `k` is no longer set: the
+/// distance that the shader sees, to the bit.
+fn seen(settings: Settings, curve: &[[f32; 4]; 4], k: u32) -> u32 {
+    let (mut low, mut high) = (0, f32::MAX.to_bits());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        let at = Settings { pixels: f32::from_bits(middle), ..settings };
+        let inserted = Adaptive::new(at).insertions(curve) >> k & 1 == 1;
+        (low, high) = if inserted { (middle + 1, high) } else { (low, middle) };
+    }
+    low
+}
+
+#[test]
+fn distances_are_the_same_to_the_bit_from_either_end() {
+    // A decision close to its threshold is rare; a threshold close to its decision is not.
+    let mut random = Random::new(0x4011_0007);
+    let mut compared = 0;
+    for _ in 0..600 {
+        let settings = Settings { near: 0.0, ..settings(&mut random) };
+        let l = settings.candidates;
+        let [a, b, c, d, ..] = [(); 16].map(|()| {
+            let mut real = |least| random.single(least, 1.0);
+            [real(-1.0), real(-1.0), 0.0, real(0.1)]
+        });
+        let k = random.integer(1, l) + random.integer(0, 2) * (l + 1);
+        let there = seen(settings, &[a, b, c, d], k);
+        let back = seen(settings, &[d, c, b, a], 3 * (l + 1) - k);
+        assert_eq!(there, back, "{settings:?} at {k}");
+        compared += u32::from(there > 0);
+    }
+    assert!(compared > 550, "{compared}");
+}
+
 #[test]
 fn an_edge_has_one_factor_in_all_its_patches() {
     let mut random = Random::new(0x4011_0002);

@@ -56,8 +56,8 @@ fn horner<D: Datapath>(d: D, u: D::Weight, [c0, c1, c2, c3]: [D::Value; 4]) -> D
     d.sum(d.scale(u, d.sum(d.scale(u, inner), c1)), c0)
 }
 
-/// The coefficients of 1, u, u^2, u^3: [N] of paper 004, Eq. 4, times four points. The products by
-/// 3 and their differences serve two coefficients each.
+/// The coefficients of 1, u, u^2, u^3: `[N]` of paper 004, Eq. 4, times four points. The products
+/// by 3 and their differences serve two coefficients each.
 #[inline(always)]
 fn power<D: Datapath>(d: D, [p0, p1, p2, p3]: [D::Value; 4]) -> [D::Value; 4] {
     let [t0, t1, t2] = [p0, p1, p2].map(|p| d.triple(p));
@@ -65,7 +65,7 @@ fn power<D: Datapath>(d: D, [p0, p1, p2, p3]: [D::Value; 4]) -> [D::Value; 4] {
     [p0, first, d.difference(second, first), d.difference(d.difference(p3, p0), second)]
 }
 
-/// [N][B][M]^T: u^k v^l at 4 l + k. [N][B] is formed first.
+/// `[N][B][M]^T`: u^k v^l at 4 l + k. `[N][B]` is formed first.
 pub(super) fn coefficients<D: Datapath>(d: D, points: &[D::Value; 16]) -> [D::Value; 16] {
     let mut net = *points;
     for row in net.chunks_exact_mut(4) {

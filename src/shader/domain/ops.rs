@@ -5,7 +5,8 @@
 //!
 //! The two kinds of shader differ in what they keep. `naive` reads 16 control points and forms the
 //! whole product for every domain point; `basis` reads them once a patch, and in the power form
-//! makes [N][B][M]^T once a patch. The Bernstein forms have no arithmetic that a patch could share.
+//! makes `[N][B][M]^T` once a patch. The Bernstein forms have no arithmetic that a patch could
+//! share.
 //!
 //! ```text
 //!            additions   multiplications      naive: patch + point for each domain point
