@@ -62,7 +62,7 @@ impl Lists {
         run.put::<EDGE>(u1, 0, u1.last(), |t| [ONE, t]);
         run.put::<EDGE>(v1, 0, v1.last(), |t| [less(ONE, t), ONE]);
         let [columns, rows] = [u.last(), v.last()]; // segments
-        let rings = (rows.min(columns) + 1) / 2;
+        let rings = rows.min(columns).div_ceil(2);
         for ring in 1..rings {
             let [low_u, low_v] = [u.parameters()[ring], v.parameters()[ring]];
             let [along_u, along_v] = [columns - 2 * ring, rows - 2 * ring];
@@ -88,7 +88,7 @@ impl Lists {
             return;
         }
         let segments = inner.last();
-        for ring in 1..(segments + 1) / 2 {
+        for ring in 1..segments.div_ceil(2) {
             let parameter = inner.parameters()[ring];
             let off = (parameter * TWO_THIRDS + (1 << 15)) >> 16; // 31 bits before the shift
             let back = off.div_ceil(2);
