@@ -109,26 +109,48 @@ impl List {
         // point p = points - 1 - q, and before the split where q is not below this.
         let split = points as i32 - 1 - split(floor, half, self.factor.odd);
         let last = (1_u32 << 15).wrapping_add((points as u32 - 1).wrapping_mul(step)); // half an ulp
-        let (mut step_back, mut number) = ([0_u32; 4], [0_i32, 1, 2, 3]);
-        for k in 0..4 {
-            step_back[k] = last.wrapping_sub(step.wrapping_mul(k as u32));
-        }
-        for handful in 0..points.div_ceil(HANDFUL) {
-            let near = CENTRE - HANDFUL * (handful + 1);
-            let far = CENTRE + 1 - odd + HANDFUL * handful;
-            for four in 0..HANDFUL / 4 {
-                for k in 0..4 {
-                    // The point after the split is the same one of the floor partition.
-                    let back = if number[k] < split { of_floor } else { 0 };
-                    let parameter = step_back[k].wrapping_sub(back) >> 16;
-                    self.parameters[near + HANDFUL - 1 - 4 * four - k] = parameter;
-                    self.parameters[far + 4 * four + k] = ONE.wrapping_sub(parameter);
-                    step_back[k] = step_back[k].wrapping_sub(step << 2);
-                    number[k] += 4;
+        let mut number = [0_i32, 1, 2, 3];
+        let mut at = [last, last.wrapping_sub(step), 0, 0];
+        [at[2], at[3]] = [at[0].wrapping_sub(step << 1), at[1].wrapping_sub(step << 1)];
+        let (mut near, mut far) = (CENTRE, CENTRE + 1 - odd);
+        for _ in 0..points.div_ceil(HANDFUL) {
+            for _ in 0..HANDFUL / 4 {
+                near -= 4;
+                self.four(near, far, four(at, number, split, of_floor));
+                far += 4;
+                for k in &mut number {
+                    *k += 4;
+                }
+                for at in &mut at {
+                    *at = at.wrapping_sub(step << 2);
                 }
             }
         }
     }
+
+    /// Puts four points of the near half, from the centre outwards, and their mirror images.
+    #[inline(always)]
+    fn four(&mut self, near: usize, far: usize, [a, b, c, d]: [u32; 4]) {
+        let place = self.parameters[near..].first_chunk_mut().expect("room for both halves");
+        *place = [d, c, b, a];
+        let place: &mut [u32; 4] =
+            self.parameters[far..].first_chunk_mut().expect("room for both halves");
+        for (place, parameter) in place.iter_mut().zip([a, b, c, d]) {
+            *place = ONE.wrapping_sub(parameter);
+        }
+    }
+}
+
+/// Four parameters. The point after the split is the same one of the floor partition as the point
+/// that splits: so are all between it and the centre one less.
+#[inline(always)]
+fn four(at: [u32; 4], number: [i32; 4], split: i32, of_floor: u32) -> [u32; 4] {
+    let mut four = [0; 4];
+    for k in 0..4 {
+        let back = if number[k] < split { of_floor } else { 0 };
+        four[k] = at[k].wrapping_sub(back) >> 16;
+    }
+    four
 }
 
 /// The point of the half-edge that splits: the next one of the ruler's order. Past all points where
