@@ -364,6 +364,51 @@ fn patterns_come_one_line_each() {
     fails(2, &["pattern"]);
 }
 
+/// Whole lines: what they say is compared with vectors elsewhere.
+#[test]
+fn tessellator_patterns_come_in_every_domain() {
+    let pattern = |args: &[&str]| {
+        let mut command = tessim();
+        let made = command.args(["pattern", "--unit", "d3d11"]).args(args).output().unwrap();
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        String::from_utf8(made.stdout).unwrap()
+    };
+    assert_eq!(
+        pattern(&["--domain", "tri", "--factors", "1,1,1,1"]),
+        "{\"domain\":\"tri\",\"partitioning\":\"odd\",\"topology\":\"ccw\",\
+         \"factors\":[1.0,1.0,1.0,1.0],\
+         \"points_fx16\":[[0,65536],[0,0],[65536,0]],\"indices\":[0,2,1]}\n"
+    );
+    // Infinity is the greatest factor, and 1.5 is two lines.
+    let [inf, most] = ["inf", "64"].map(|detail| {
+        let factors = format!("--factors=1.5,{detail}");
+        pattern(&["--domain=isoline", "--partitioning=even", &factors])
+    });
+    assert!(inf.contains("\"topology\":\"line\",\"factors\":[1.5,\"inf\"]"));
+    assert_eq!(inf.split_once("points").unwrap().1, most.split_once("points").unwrap().1);
+    let culled = pattern(&["--partitioning", "integer", "--factors=1,1,-2,1,1,1"]);
+    assert!(culled.ends_with("[1.0,1.0,-2.0,1.0,1.0,1.0],\"points_fx16\":[],\"indices\":[]}\n"));
+    let inside = pattern(&["--factors=1,1,2,1,nan,-inf", "--topology=line"]);
+    assert!(inside.contains("[1.0,1.0,2.0,1.0,\"nan\",\"-inf\"],\"points_fx16\":[[0,65536],"));
+    let lines = "quad pow2 cw 2 2 2 2 2 2\ntri odd point nan 1 1 1\nisoline even line 1 2\n";
+    let mut batch = tessim();
+    let batch = batch.args(["pattern", "--unit", "d3d11", "--batch", "-"]).write_stdin(lines);
+    let batch = String::from_utf8(batch.output().unwrap().stdout).unwrap();
+    let lines: Vec<serde_json::Value> =
+        batch.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let count = |line: usize, list: &str| lines[line][list].as_array().unwrap().len();
+    let counts = |line| (count(line, "points_fx16"), count(line, "indices"));
+    assert_eq!([counts(0), counts(1), counts(2)], [(9, 24), (0, 0), (3, 4)]);
+    let with = |args: &[&str]| fails(2, &[&["pattern", "--unit=d3d11"], args].concat());
+    assert!(with(&["--factors=1,1,1,1"]).contains("found 4 factors, expected 6"));
+    assert!(with(&["--domain=tri", "--factors=1,1,1,1,1,1"]).contains("expected 4: Ueq0"));
+    assert!(
+        with(&["--domain=isoline", "--topology=cw", "--factors=1,1"]).contains("point or line")
+    );
+    let fractional = ["--partitioning=fractional", "--factors=1,1,1,1,1,1"];
+    assert!(with(&fractional).contains("integer, pow2, odd or even"));
+}
+
 #[test]
 fn a_study_prints_its_table_and_writes_integers() {
     let folder = tempfile::tempdir().unwrap();

@@ -23,6 +23,7 @@
 
 mod factor;
 mod group;
+mod inside;
 mod place;
 mod points;
 mod stitch;

@@ -54,7 +54,7 @@ impl Factor {
 /// Processed factors: everything that a pattern depends on.
 ///
 /// Integer and pow2 factors that process alike are equal. By default those of a quad of ones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Factors {
     domain: Domain,
     /// Whether every factor is 1, none of an even parity: one triangle or two.
@@ -63,6 +63,12 @@ pub struct Factors {
     factors: [Factor; 6],
     /// Points along each, both ends included: 2 to 65.
     counts: [u8; 6],
+}
+
+impl Default for Factors {
+    fn default() -> Self {
+        Self { domain: Domain::Quad, least: true, factors: [Factor::default(); 6], counts: [2; 6] }
+    }
 }
 
 impl Factors {

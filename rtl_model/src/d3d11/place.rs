@@ -19,7 +19,6 @@
 //! by up to 7 / 65536; every implementation agrees on that, so it stays.
 
 use super::factor::Factor;
-use fixed::types::U16F16;
 
 /// Points of a half-edge that are made at once, from the centre outwards, whether there are as many
 /// or not.
@@ -46,6 +45,22 @@ const RECIPROCALS: [u32; 65] = {
     }
     table
 };
+
+/// All ones for the points of a half-edge after the split, from the centre outwards: from number
+/// [`BEFORE`] less as many as there are. A table, and not a comparison, for the sake of speed.
+static AFTER_SPLIT: [u32; 176] = {
+    let mut table = [0; 176];
+    let mut k = 0;
+    while k < BEFORE as usize {
+        table[k] = u32::MAX;
+        k += 1;
+    }
+    table
+};
+const BEFORE: i32 = 64;
+
+/// A split where the partitions are the same: after every point.
+const PAST_ALL: i32 = 64;
 
 /// The points of one factor.
 #[derive(Clone, Debug)]
@@ -106,39 +121,56 @@ impl List {
         self.count = 2 * points + 1 - odd;
         self.parameters[CENTRE] = HALF; // an odd list's far half has its first point here
         // From the centre outwards, so that what is too many lies outside: number q of a half is
-        // point p = points - 1 - q, and before the split where q is not below this.
-        let split = points as i32 - 1 - split(floor, half, self.factor.odd);
+        // point p = points - 1 - q, and after the split where q is below this.
+        let split = if t == 0 { PAST_ALL } else { SPLITS[floor - odd].into() };
+        let split = points as i32 - 1 - split;
         let last = (1_u32 << 15).wrapping_add((points as u32 - 1).wrapping_mul(step)); // half an ulp
-        let (mut step_back, mut number) = ([0_u32; 4], [0_i32, 1, 2, 3]);
-        for k in 0..4 {
-            step_back[k] = last.wrapping_sub(step.wrapping_mul(k as u32));
-        }
-        for handful in 0..points.div_ceil(HANDFUL) {
-            let near = CENTRE - HANDFUL * (handful + 1);
-            let far = CENTRE + 1 - odd + HANDFUL * handful;
-            for four in 0..HANDFUL / 4 {
+        let mut at = [last, last.wrapping_sub(step), 0, 0];
+        [at[2], at[3]] = [at[0].wrapping_sub(step << 1), at[1].wrapping_sub(step << 1)];
+        // The point after the split is the same one of the floor partition as the one that splits.
+        let window = &AFTER_SPLIT[(BEFORE - split) as usize..];
+        let (mut near, mut far) = (CENTRE, CENTRE + 1 - odd);
+        let mut done = 0;
+        for after in window.as_chunks::<HANDFUL>().0 {
+            for after in after.as_chunks::<4>().0 {
+                let mut parameters = [0; 4];
                 for k in 0..4 {
-                    // The point after the split is the same one of the floor partition.
-                    let back = if number[k] < split { of_floor } else { 0 };
-                    let parameter = step_back[k].wrapping_sub(back) >> 16;
-                    self.parameters[near + HANDFUL - 1 - 4 * four - k] = parameter;
-                    self.parameters[far + 4 * four + k] = ONE.wrapping_sub(parameter);
-                    step_back[k] = step_back[k].wrapping_sub(step << 2);
-                    number[k] += 4;
+                    parameters[k] = at[k].wrapping_sub(of_floor & after[k]) >> 16;
                 }
+                for at in &mut at {
+                    *at = at.wrapping_sub(step << 2);
+                }
+                near -= 4;
+                self.mirrored(near, far, parameters);
+                far += 4;
+            }
+            done += HANDFUL;
+            if done >= points {
+                break;
             }
         }
     }
+
+    /// Puts four points of the near half, from the centre outwards, and their mirror images.
+    #[inline(always)]
+    fn mirrored(&mut self, near: usize, far: usize, parameters: [u32; 4]) {
+        let [a, b, c, d] = parameters;
+        let place = self.parameters[near..].first_chunk_mut().expect("room for both halves");
+        *place = [d, c, b, a];
+        let place = self.parameters[far..].first_chunk_mut().expect("room for both halves");
+        *place = parameters.map(|parameter| ONE.wrapping_sub(parameter));
+    }
 }
 
-/// The point of the half-edge that splits: the next one of the ruler's order. Past all points where
-/// there is nothing between the partitions.
-fn split(floor: usize, half: U16F16, odd: bool) -> i32 {
-    let without_top_bit = |n: usize| n ^ (1 << n.ilog2());
-    let split = match (odd, floor) {
-        (true, 1) => 0,
-        (true, _) => (without_top_bit(floor - 1) << 1) + 1,
-        (false, _) => (without_top_bit(floor) << 1) + 1,
-    };
-    if half.frac() == 0 { 64 } else { split as i32 }
-}
+/// The point of the half-edge that splits, by the points before the one in or next to the middle:
+/// the next one of the ruler's order. A factor has 1 to 32 of them, an odd one 0 to 31.
+static SPLITS: [u8; 33] = {
+    let mut table = [0; 33];
+    let mut points: usize = 1;
+    while points <= 32 {
+        let without_top_bit = points ^ (1 << points.ilog2());
+        table[points] = (without_top_bit << 1) as u8 + 1;
+        points += 1;
+    }
+    table
+};

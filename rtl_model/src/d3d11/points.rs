@@ -7,15 +7,15 @@
 
 use super::{Domain, Factors, List};
 
-/// Points after the last one that may be written: their values mean nothing.
-pub(super) const SLACK: usize = EDGE;
+/// Points that are made at once, of an edge; so many after the last one may be written, which mean
+/// nothing. Where many factors are alike, so is the number of handfuls, and no branch is missed.
+pub(super) const SLACK: usize = 12;
+
+/// Points of a ring's side that are made at once.
+const SIDE: usize = 8;
 
 /// Why a handful of points can be written.
 const ROOM: &str = "there are more places than points";
-
-/// Points of an edge, and of a side of a ring, that are made at once.
-const EDGE: usize = 12;
-const SIDE: usize = 8;
 
 /// The middle and the end of an edge in U1.16.
 const HALF: u32 = 1 << 15;
@@ -49,7 +49,7 @@ impl Lists {
             Domain::Isoline => {
                 let [across, along, ..] = &self.0;
                 for &v in &across.parameters()[..factors.lines()] {
-                    run.put::<EDGE>(along, 0, along.last() + 1, |u| [u, v]);
+                    run.put::<1, 0, SLACK>(along, 0, along.last() + 1, [0, v]);
                 }
             }
         }
@@ -57,56 +57,50 @@ impl Lists {
 
     fn quad(&self, run: &mut Run<'_>) {
         let [u0, v0, u1, v1, u, v] = &self.0;
-        run.put::<EDGE>(u0, 0, u0.last(), |t| [0, less(ONE, t)]);
-        run.put::<EDGE>(v0, 0, v0.last(), |t| [t, 0]);
-        run.put::<EDGE>(u1, 0, u1.last(), |t| [ONE, t]);
-        run.put::<EDGE>(v1, 0, v1.last(), |t| [less(ONE, t), ONE]);
+        run.put::<0, -1, SLACK>(u0, 0, u0.last(), [0, ONE]);
+        run.put::<1, 0, SLACK>(v0, 0, v0.last(), [0, 0]);
+        run.put::<0, 1, SLACK>(u1, 0, u1.last(), [ONE, 0]);
+        run.put::<-1, 0, SLACK>(v1, 0, v1.last(), [ONE, ONE]);
         let [columns, rows] = [u.last(), v.last()]; // segments
-        let rings = (rows.min(columns) + 1) / 2;
+        let rings = rows.min(columns).div_ceil(2);
         for ring in 1..rings {
             let [low_u, low_v] = [u.parameters()[ring], v.parameters()[ring]];
             let [along_u, along_v] = [columns - 2 * ring, rows - 2 * ring];
-            run.put::<SIDE>(v, ring, along_v, |t| [low_u, less(ONE, t)]);
-            run.put::<SIDE>(u, ring, along_u, |t| [t, low_v]);
-            run.put::<SIDE>(v, ring, along_v, |t| [ONE - low_u, t]);
-            run.put::<SIDE>(u, ring, along_u, |t| [less(ONE, t), ONE - low_v]);
+            run.put::<0, -1, SIDE>(v, ring, along_v, [low_u, ONE]);
+            run.put::<1, 0, SIDE>(u, ring, along_u, [0, low_v]);
+            run.put::<0, 1, SIDE>(v, ring, along_v, [ONE - low_u, 0]);
+            run.put::<-1, 0, SIDE>(u, ring, along_u, [ONE, ONE - low_v]);
         }
         // An even axis ends in a row or a column, which is the near and the far side of a ring.
         if rows <= columns && rows.is_multiple_of(2) {
-            run.put::<SIDE>(u, rings, columns + 1 - 2 * rings, |t| [t, HALF]);
+            run.put::<1, 0, SIDE>(u, rings, columns + 1 - 2 * rings, [0, HALF]);
         } else if columns < rows && columns.is_multiple_of(2) {
-            run.put::<SIDE>(v, rings, rows + 1 - 2 * rings, |t| [HALF, less(ONE, t)]);
+            run.put::<0, -1, SIDE>(v, rings, rows + 1 - 2 * rings, [HALF, ONE]);
         }
     }
 
     fn tri(&self, run: &mut Run<'_>, least: bool) {
         let [u0, v0, w0, inner, ..] = &self.0;
-        run.put::<EDGE>(u0, 0, u0.last(), |t| [0, less(ONE, t)]);
-        run.put::<EDGE>(v0, 0, v0.last(), |t| [t, 0]);
-        run.put::<EDGE>(w0, 0, w0.last(), |t| [less(ONE, t), t]);
+        run.put::<0, -1, SLACK>(u0, 0, u0.last(), [0, ONE]);
+        run.put::<1, 0, SLACK>(v0, 0, v0.last(), [0, 0]);
+        run.put::<-1, 1, SLACK>(w0, 0, w0.last(), [ONE, 0]);
         if least {
             return;
         }
         let segments = inner.last();
-        for ring in 1..(segments + 1) / 2 {
+        for ring in 1..segments.div_ceil(2) {
             let parameter = inner.parameters()[ring];
             let off = (parameter * TWO_THIRDS + (1 << 15)) >> 16; // 31 bits before the shift
             let back = off.div_ceil(2);
             let along = segments - 2 * ring;
-            run.put::<SIDE>(inner, ring, along, |t| [off, less(ONE - back, t)]);
-            run.put::<SIDE>(inner, ring, along, |t| [less(t, back), off]);
-            run.put::<SIDE>(inner, ring, along, |t| [less(ONE - back, t), less(t, off - back)]);
+            run.put::<0, -1, SIDE>(inner, ring, along, [off, ONE - back]);
+            run.put::<1, 0, SIDE>(inner, ring, along, [0_u32.wrapping_sub(back), off]);
+            run.put::<-1, 1, SIDE>(inner, ring, along, [ONE - back, back.wrapping_sub(off)]);
         }
         if segments.is_multiple_of(2) {
             run.out[run.at] = [THIRD, THIRD];
         }
     }
-}
-
-/// A difference, which may wrap where it means nothing.
-#[inline(always)]
-fn less(a: u32, b: u32) -> u32 {
-    a.wrapping_sub(b)
 }
 
 /// Where the next points go.
@@ -116,25 +110,41 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Puts `count` points, one for each parameter of `list` from number `first` on. They are made
-    /// `N` at a time, at most [`SLACK`]: what is too many is overwritten by what follows.
-    #[inline(always)]
-    fn put<const N: usize>(
+    /// Puts `count` points, one for each parameter t of `list` from number `first` on: `base` plus
+    /// U t and V t. They are made `N` at a time: what is too many is overwritten by what follows.
+    #[inline(never)]
+    fn put<const U: i32, const V: i32, const N: usize>(
         &mut self,
         list: &List,
         first: usize,
         count: usize,
-        point: impl Fn(u32) -> [u32; 2],
+        base: [u32; 2],
     ) {
+        let (list, out) = (&list.padded()[first..], &mut self.out[self.at..]);
         let mut done = 0;
-        while done < count {
-            let parameters: &[u32; N] = list.padded()[first + done..].first_chunk().expect(ROOM);
-            let out: &mut [[u32; 2]; N] = self.out[self.at + done..].first_chunk_mut().expect(ROOM);
-            for (out, &parameter) in out.iter_mut().zip(parameters) {
-                *out = point(parameter);
-            }
+        loop {
+            points::<U, V, N>(list, out, done, base);
             done += N;
+            if done >= count {
+                break;
+            }
         }
         self.at += count;
+    }
+}
+
+/// `N` points from number `at` on.
+#[inline(always)]
+fn points<const U: i32, const V: i32, const N: usize>(
+    list: &[u32],
+    out: &mut [[u32; 2]],
+    at: usize,
+    [u, v]: [u32; 2],
+) {
+    let parameters: &[u32; N] = list[at..].first_chunk().expect(ROOM);
+    let out: &mut [[u32; 2]; N] = out[at..].first_chunk_mut().expect(ROOM);
+    for (out, &parameter) in out.iter_mut().zip(parameters) {
+        let times = |sign: i32| parameter.wrapping_mul(sign as u32);
+        *out = [u.wrapping_add(times(U)), v.wrapping_add(times(V))];
     }
 }

@@ -21,6 +21,7 @@
 //! overwritten by what follows.
 
 use super::group::{GROUPS, Group, Next, PAIRS, STEPS};
+use super::inside::{self, BLOCK as INSIDE_BLOCK, Insides};
 use super::walk::{self, Walk};
 use super::{Domain, Factors, Output};
 
@@ -82,16 +83,18 @@ impl Row {
 }
 
 /// Writes triangles, clockwise or counter-clockwise.
-struct Stitch<'a, const CLOCKWISE: bool> {
-    out: &'a mut [u16],
-    at: usize,
+pub(super) struct Stitch<'a, const CLOCKWISE: bool> {
+    /// Has [`SLACK`] places more than numbers.
+    pub(super) out: &'a mut [u16],
+    /// How many are written.
+    pub(super) at: usize,
 }
 
 /// A ring of points: the number of its first, and the segments of its sides.
 #[derive(Clone, Copy)]
-struct Ring<const SIDES: usize> {
-    first: usize,
-    segments: [usize; SIDES],
+pub(super) struct Ring<const SIDES: usize> {
+    pub(super) first: usize,
+    pub(super) segments: [usize; SIDES],
 }
 
 impl<const SIDES: usize> Ring<SIDES> {
@@ -144,66 +147,95 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
             (Domain::Tri, false) => {
                 let inner = factors.inner_points(0) - 1;
                 let edges = Ring { first: 0, segments: [0, 1, 2].map(segments) };
-                if let Some(centre) = self.rings(edges, [inner; 3]) {
-                    let first = centre.first as u16;
-                    self.put([first, first + 2, first + 1]);
-                }
+                let ring = self.transitions(&edges, [inner; 3]);
+                self.inside(ring, &inside::TRIS[usize::from(CLOCKWISE)]);
             }
             (Domain::Quad, false) => {
                 let [u, v] = [0, 1].map(|axis| factors.inner_points(axis) - 1);
                 let edges = Ring { first: 0, segments: [0, 1, 2, 3].map(segments) };
-                if let Some(centre) = self.rings(edges, [v, u, v, u]) {
-                    self.centre(centre);
-                }
+                let ring = self.transitions(&edges, [v, u, v, u]);
+                self.inside(ring, &inside::QUADS[usize::from(CLOCKWISE)]);
             }
         }
     }
 
-    /// All rings from the edges inwards; `inner` are the segments of the inner partition along each
-    /// side. The innermost ring, if there is something in it still.
+    /// Everything inside a ring: strip by strip as long as it is in no table.
     #[inline(always)]
-    fn rings<const SIDES: usize>(
-        &mut self,
-        edges: Ring<SIDES>,
-        inner: [usize; SIDES],
-    ) -> Option<Ring<SIDES>> {
-        let mut ring = Ring { first: edges.count(), segments: inner.map(|segments| segments - 2) };
-        self.transitions(&edges, &ring, inner);
-        while !ring.is_line() && !ring.is_centre() {
-            let inside = ring.inside();
-            if inside.is_line() {
-                self.strips_on_line(&ring, &inside);
-            } else {
-                self.strips(&ring, &inside);
+    fn inside<const SIDES: usize>(&mut self, mut ring: Ring<SIDES>, insides: &Insides) {
+        loop {
+            if let Some((numbers, count)) = insides.find(&ring) {
+                return self.copy(numbers, count, ring.first as u16);
             }
-            ring = inside;
+            match self.ring(ring) {
+                Some(inside) => ring = inside,
+                None => return,
+            }
         }
-        ring.is_centre().then_some(ring)
     }
 
+    /// Everything inside a ring, with no table.
+    pub(super) fn inside_by_strips<const SIDES: usize>(&mut self, ring: Ring<SIDES>) {
+        let mut left = Some(ring);
+        while let Some(ring) = left {
+            left = self.ring(ring);
+        }
+    }
+
+    /// The strips of a ring; the ring inside it. Where there is none, what there is instead.
+    #[inline(always)]
+    fn ring<const SIDES: usize>(&mut self, ring: Ring<SIDES>) -> Option<Ring<SIDES>> {
+        if ring.is_line() {
+            return None;
+        }
+        if ring.is_centre() {
+            self.centre(&ring);
+            return None;
+        }
+        let inside = ring.inside();
+        if inside.is_line() {
+            self.strips_on_line(&ring, &inside);
+        } else {
+            self.strips(&ring, &inside);
+        }
+        Some(inside)
+    }
+
+    /// Copies numbers that count from `first`.
+    #[inline(always)]
+    fn copy(&mut self, numbers: &[u16], count: usize, first: u16) {
+        let (blocks, _) = numbers.as_chunks::<INSIDE_BLOCK>();
+        let (out, _) = self.out[self.at..].as_chunks_mut::<INSIDE_BLOCK>();
+        for (out, block) in out.iter_mut().zip(blocks).take(count.div_ceil(INSIDE_BLOCK)) {
+            for (out, number) in out.iter_mut().zip(block) {
+                *out = number.wrapping_add(first);
+            }
+        }
+        self.at += count;
+    }
+
+    /// The strips between the edges and the ring inside, which it returns; `inner` are the segments
+    /// of the inner partition along each side.
     #[inline(always)]
     fn transitions<const SIDES: usize>(
         &mut self,
         edges: &Ring<SIDES>,
-        ring: &Ring<SIDES>,
         inner: [usize; SIDES],
-    ) {
-        let (mut outside, mut inside) = (0, 0);
-        for side in 0..SIDES - 1 {
-            self.transition(
-                outside as u16,
-                ring.row(inside),
-                walk::walk(inner[side], edges.segments[side]),
-            );
+    ) -> Ring<SIDES> {
+        let ring = Ring { first: edges.count(), segments: inner.map(|segments| segments - 2) };
+        let (mut outside, mut inside, mut begin) = (0, 0, 0);
+        for (side, &inner) in inner.iter().enumerate() {
+            let mut row = ring.row(inside);
+            if side == SIDES - 1 {
+                row.first |= INNER;
+                begin = self.at;
+            }
+            let walk = walk::walk(inner, edges.segments[side]);
+            self.transition(outside as u16, row, walk);
             outside += edges.segments[side];
             inside += ring.segments[side];
         }
-        let begin = self.at;
-        let mut row = ring.row(inside);
-        row.first |= INNER;
-        let last = walk::walk(inner[SIDES - 1], edges.segments[SIDES - 1]);
-        self.transition(outside as u16, row, last);
-        self.close(begin, ring);
+        self.close(begin, &ring);
+        ring
     }
 
     /// Lets the last transition, from index `begin` on, end at the first points of the edges and of
@@ -314,10 +346,13 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
         self.at = end;
     }
 
-    /// The strip that an odd axis of a quad ends in: a ring of which two sides have one segment.
-    fn centre(&mut self, ring: Ring<4>) {
-        let [tall, wide, ..] = ring.segments;
+    /// The ring that odd partitions end in: a triangle, or, of a quad, a strip.
+    fn centre<const SIDES: usize>(&mut self, ring: &Ring<SIDES>) {
         let (first, last) = (ring.first as u16, ring.end() as u16 - 1);
+        if SIDES == 3 {
+            return self.put([first, first + 2, first + 1]);
+        }
+        let [tall, wide] = [ring.segments[0], ring.segments[1]];
         if wide > tall {
             // From the left: the upper side begins at the first point, the lower at the second.
             let upper = |k: u16| if k == 0 { first } else { last + 1 - k };

@@ -43,7 +43,7 @@ static HALVES: [[Half; HALF_MAX + 1]; HALF_MAX + 1] = {
 };
 
 const fn half(inner: usize, outer: usize) -> Half {
-    let mut steps = 0;
+    let mut steps = 0_u64;
     let mut count = if outer > 0 { 1 } else { 0 }; // the corner's triangle stands on the outer row
     let mut place = 1;
     while place < RULER.len() {
@@ -57,7 +57,7 @@ const fn half(inner: usize, outer: usize) -> Half {
         place += 1;
     }
     assert!(count == inner - 1 + outer);
-    let mirrored = if count == 0 { 0 } else { (steps as u64).reverse_bits() >> (64 - count) };
+    let mirrored = if count == 0 { 0 } else { steps.reverse_bits() >> (64 - count) };
     [steps, mirrored]
 }
 

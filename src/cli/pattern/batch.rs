@@ -1,8 +1,8 @@
 //! Many requests: lines in, lines out, in order and as they come, whatever the length of the file.
 
 use super::super::print;
-use super::request::{Fault, Request};
-use super::shape;
+use super::request::{Fault, Request, Unit};
+use super::shape::Writer;
 use clap::ValueEnum;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -13,15 +13,16 @@ use tessim::error::{Error, Place, Result};
 const LINE_BYTES_MAX: u64 = 4096;
 
 /// Answers every line of the file at `path`, or of standard input for `-`.
-pub(super) fn run(path: &Path, out: &mut impl Write) -> Result<()> {
+pub(super) fn run(unit: Unit, path: &Path, out: &mut impl Write) -> Result<()> {
     if path == Path::new("-") {
-        return answer(io::stdin().lock(), path, out);
+        return answer(unit, io::stdin().lock(), path, out);
     }
     let file = File::open(path).map_err(|error| Error::system(path, error))?;
-    answer(BufReader::new(file), path, out)
+    answer(unit, BufReader::new(file), path, out)
 }
 
-fn answer(mut input: impl BufRead, path: &Path, out: &mut impl Write) -> Result<()> {
+fn answer(unit: Unit, mut input: impl BufRead, path: &Path, out: &mut impl Write) -> Result<()> {
+    let mut writer = Writer::default();
     let mut line = Vec::new();
     for number in 1.. {
         line.clear();
@@ -29,19 +30,19 @@ fn answer(mut input: impl BufRead, path: &Path, out: &mut impl Write) -> Result<
         if read.map_err(|error| Error::system(path, error))? == 0 {
             break;
         }
-        let request = request(&line).map_err(|(column, message)| {
+        let request = request(unit, &line).map_err(|(column, message)| {
             // What was answered is answered: the error comes after it.
             let _ = out.flush();
             let place = Place::Line { line: number, column };
             Error::Input { file: path.display().to_string(), place, message }
         })?;
-        shape::write(&request, out).map_err(print::error)?;
+        writer.write(&request, out).map_err(print::error)?;
     }
     Ok(())
 }
 
 /// The request on a line, or the column (from 1) of what is wrong with it and why.
-fn request(line: &[u8]) -> Result<Request, (usize, String)> {
+fn request(unit: Unit, line: &[u8]) -> Result<Request, (usize, String)> {
     if line.len() as u64 > LINE_BYTES_MAX {
         let message = format!("found a line of more than {LINE_BYTES_MAX} bytes, expected less");
         return Err((1, message));
@@ -53,15 +54,13 @@ fn request(line: &[u8]) -> Result<Request, (usize, String)> {
     let column = |word: &str| word.as_ptr() as usize - line.as_ptr() as usize + 1;
     let end = line.len() + 1;
     let mut words = line.split_ascii_whitespace();
-    let first = words.clone().next().map_or(end, column);
+    let columns: Vec<usize> = words.clone().map(column).collect();
     let domain = choice(words.next(), "a domain", end, column)?;
     let partitioning = choice(words.next(), "a partitioning", end, column)?;
     let topology = choice(words.next(), "a topology", end, column)?;
-    let columns: Vec<usize> = words.clone().map(column).collect();
-    Request::new(domain, partitioning, topology, words).map_err(|Fault { factor, message }| {
-        let column = factor.map_or(first, |number| columns.get(number).copied().unwrap_or(end));
-        (column, message)
-    })
+    let shape = (domain, partitioning, topology);
+    Request::new(unit, shape, words)
+        .map_err(|Fault { word, message }| (columns.get(word).copied().unwrap_or(end), message))
 }
 
 fn choice<T: ValueEnum>(
@@ -85,14 +84,16 @@ mod tests {
     use super::*;
 
     fn message(text: &[u8]) -> String {
-        answer(text, Path::new("b.txt"), &mut Vec::new()).expect_err("refused").to_string()
+        answer(Unit::Hybrid, text, Path::new("b.txt"), &mut Vec::new())
+            .expect_err("refused")
+            .to_string()
     }
 
     #[test]
     fn lines_are_answered_in_order() {
         let mut out = Vec::new();
         let input = "quad fractional ccw 1 1 1 1\r\n  quad  fractional\tpoint nan 1 1 1 2 2";
-        answer(input.as_bytes(), Path::new("-"), &mut out).unwrap();
+        answer(Unit::Hybrid, input.as_bytes(), Path::new("-"), &mut out).unwrap();
         let lines: Vec<serde_json::Value> = String::from_utf8(out)
             .unwrap()
             .lines()
@@ -116,5 +117,23 @@ mod tests {
         assert!(second("tri odd ccw 1 2 3 4").contains("expected what unit hybrid takes"));
         assert!(message(b"quad \xff").starts_with("b.txt:1:6: expected UTF-8"));
         assert!(message(&[b' '; 5000]).contains("4096"));
+    }
+
+    #[test]
+    fn a_tessellators_lines_are_held_against_their_domains() {
+        let message = |text: &str| {
+            let text = format!("tri odd cw 1 1 1 1\n{text}");
+            let mut out = Vec::new();
+            let error = answer(Unit::D3d11, text.as_bytes(), Path::new("b.txt"), &mut out);
+            assert!(out.starts_with(b"{\"domain\":\"tri\"") && out.ends_with(b"[0,1,2]}\n"));
+            error.expect_err("refused").to_string()
+        };
+        assert!(message("tri odd cw 1 1 1").starts_with("b.txt:2:17: found 3 factors, expected 4"));
+        assert!(message("quad odd cw 1 2 3 4").contains("expected 6: Ueq0 Veq0 Ueq1 Veq1 InU InV"));
+        assert!(message("isoline odd line 1 2 3").starts_with("b.txt:2:22: found 3 factors"));
+        assert!(message("isoline odd ccw 1 2").starts_with("b.txt:2:13: found topology ccw"));
+        assert!(message("quad fractional cw 1 1 1 1 1 1").starts_with("b.txt:2:6: found part"));
+        assert!(message("quad odd cw 1 1 1 1 1 1,0").starts_with("b.txt:2:23: found \"1,0\""));
+        assert!(message("quad odd").starts_with("b.txt:2:9: found nothing, expected a topology"));
     }
 }

@@ -8,22 +8,31 @@ mod request;
 mod shape;
 
 use super::print;
-use request::{Domain, Partitioning, Request, Topology};
+use request::{Domain, Partitioning, Request, SHAPE_WORDS, Topology, Unit};
 use std::io::Write;
 use std::path::PathBuf;
 use tessim::error::{Error, Result};
 
 /// Print the tessellation pattern of given factors as JSON
 ///
-/// Unit hybrid takes quads with partitioning fractional: the levels of the edges v0 u1 v1 u0 in
-/// segments per whole edge, then optionally those of the interior along u and v. Factors are read
-/// as f32 (nan, inf and -inf too), rounded to UQ8.16 (to nearest, ties to even) and clamped to
-/// 1..=128; nan counts as 1. Points are in U1.16. Indices are flat: 3 a triangle, 2 a line (each
-/// distinct edge once, in the order of first use: our choice), 1 a point.
+/// Units hybrid and moreton take quads with partitioning fractional: the levels of the edges v0 u1
+/// v1 u0 in segments per whole edge, then optionally those of the interior along u and v. Factors
+/// are read as f32 (nan, inf and -inf too), rounded to UQ8.16 (to nearest, ties to even) and
+/// clamped to 1..=128; nan counts as 1.
+///
+/// Unit d3d11 takes all domains, with partitioning integer, pow2, odd or even: for quads the
+/// factors Ueq0 Veq0 Ueq1 Veq1 InU InV, for tris Ueq0 Veq0 Weq0 In, for isolines density and
+/// detail. An edge's factor that is nan or not above 0 culls: points and indices are empty then.
+///
+/// Points are in U1.16. Indices are flat: 3 a triangle, 2 a line (hybrid: each distinct edge once,
+/// in the order of first use, our choice; d3d11: the points one after another, in isolines line by
+/// line), 1 a point.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  tessim pattern --topology ccw --factors 3.3,2.7,5.1,4.2,3,2\n  \
-                        echo 'quad fractional ccw 3.3 2.7 5.1 4.2' | tessim pattern --batch -"
+                        tessim pattern --unit d3d11 --domain tri --factors 3,2.5,4,3\n  \
+                        echo 'quad fractional ccw 3.3 2.7 5.1 4.2' | tessim pattern --batch -\n  \
+                        echo 'isoline even line 4 6' | tessim pattern --unit d3d11 --batch -"
 )]
 pub(crate) struct Args {
     /// The unit whose pattern it is
@@ -32,13 +41,13 @@ pub(crate) struct Args {
     /// The domain [default: quad]
     #[arg(long, value_name = "D", value_enum, conflicts_with = "batch")]
     domain: Option<Domain>,
-    /// The partitioning [default: fractional]
+    /// The partitioning [default: fractional; of d3d11: odd]
     #[arg(long, value_name = "P", value_enum, conflicts_with = "batch")]
     partitioning: Option<Partitioning>,
-    /// What the indices make [default: ccw]
+    /// What the indices make [default: ccw; of isolines: line]
     #[arg(long, value_name = "T", value_enum, conflicts_with = "batch")]
     topology: Option<Topology>,
-    /// The levels v0,u1,v1,u0[,InU,InV]
+    /// The levels v0,u1,v1,u0[,InU,InV], or the factors in their order
     #[arg(long, value_name = "A,B,...", allow_hyphen_values = true)]
     #[arg(conflicts_with = "batch", required_unless_present = "batch")]
     factors: Option<String>,
@@ -47,30 +56,23 @@ pub(crate) struct Args {
     batch: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum Unit {
-    Hybrid,
-    Moreton,
-}
-
 pub(crate) fn run(args: &Args) -> Result<()> {
-    // Both have Moreton's pattern.
-    let (Unit::Hybrid | Unit::Moreton) = args.unit;
     let mut out = std::io::BufWriter::new(print::stdout());
     match (&args.batch, &args.factors) {
-        (Some(path), _) => batch::run(path, &mut out)?,
+        (Some(path), _) => batch::run(args.unit, path, &mut out)?,
         (None, Some(factors)) => {
-            let request = Request::new(
-                args.domain.unwrap_or(Domain::Quad),
-                args.partitioning.unwrap_or(Partitioning::Fractional),
-                args.topology.unwrap_or(Topology::Ccw),
-                factors.split(','),
-            );
-            let request = request.map_err(|fault| match fault.factor {
-                Some(_) => Error::Usage(format!("--factors {factors}: {}", fault.message)),
-                None => Error::Usage(fault.message),
+            let domain = args.domain.unwrap_or(Domain::Quad);
+            let partitioning = args.partitioning.unwrap_or(args.unit.partitioning());
+            let topology = args.topology.unwrap_or(domain.topology());
+            let shape = (domain, partitioning, topology);
+            let request = Request::new(args.unit, shape, factors.split(','));
+            let request = request.map_err(|fault| {
+                Error::Usage(match fault.word {
+                    0..SHAPE_WORDS => fault.message,
+                    _ => format!("--factors {factors}: {}", fault.message),
+                })
             })?;
-            shape::write(&request, &mut out).map_err(print::error)?;
+            shape::Writer::default().write(&request, &mut out).map_err(print::error)?;
         }
         (None, None) => unreachable!("clap requires one of the two"),
     }

@@ -1,6 +1,7 @@
 //! A request in, its line of output out.
 
-use super::request::{Domain, Factor, Partitioning, Request, Topology};
+use super::request::{Domain, Factor, Partitioning, Request, Topology, Unit};
+use rtl_model::d3d11::{Factors, Tessellator};
 use serde::Serialize;
 use std::io::{self, Write};
 use tessim::output::edges;
@@ -12,22 +13,45 @@ struct Shape<'a> {
     partitioning: Partitioning,
     topology: Topology,
     factors: &'a [Factor],
-    points_fx16: Vec<[u32; 2]>,
-    indices: Vec<u16>,
+    points_fx16: &'a [[u32; 2]],
+    indices: &'a [u16],
 }
 
-/// Writes the pattern that `request` asks for, and a newline.
-pub(super) fn write(request: &Request, out: &mut impl Write) -> io::Result<()> {
-    let pattern = fractional_quad(request.edges(), request.interior());
-    let indices = indices(&pattern, request.topology);
-    let shape = Shape {
-        domain: request.domain,
-        partitioning: request.partitioning,
-        topology: request.topology,
-        factors: &request.factors,
-        points_fx16: pattern.points,
-        indices,
-    };
+/// Makes patterns and writes them.
+#[derive(Default)]
+pub(super) struct Writer {
+    tessellator: Tessellator,
+}
+
+impl Writer {
+    /// Writes the pattern that `request` asks for, and a newline. Of culled factors the lists are
+    /// empty.
+    pub(super) fn write(&mut self, request: &Request, out: &mut impl Write) -> io::Result<()> {
+        if request.unit != Unit::D3d11 {
+            let pattern = fractional_quad(request.edges(), request.interior());
+            let indices = indices(&pattern, request.topology);
+            return write(request, &pattern.points, &indices, out);
+        }
+        let bits: Vec<u32> = request.factors.iter().map(|factor| factor.0.to_bits()).collect();
+        let partitioning = request.partitioning.d3d11().expect("checked with the request");
+        match Factors::process(request.domain.d3d11(), partitioning, &bits) {
+            Some(factors) => {
+                self.tessellator.accept(&factors, request.topology.d3d11());
+                write(request, self.tessellator.points(), self.tessellator.indices(), out)
+            }
+            None => write(request, &[], &[], out),
+        }
+    }
+}
+
+fn write(
+    request: &Request,
+    points_fx16: &[[u32; 2]],
+    indices: &[u16],
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let Request { domain, partitioning, topology, ref factors, .. } = *request;
+    let shape = Shape { domain, partitioning, topology, factors, points_fx16, indices };
     serde_json::to_writer(&mut *out, &shape)?;
     out.write_all(b"\n")
 }
