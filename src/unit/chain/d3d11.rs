@@ -55,7 +55,7 @@ impl Flow for Pattern {
             Name::Points => Stage::Points(Of::new(Points(steady))),
             Name::Connect => Stage::Connect(Of::new(Connect {
                 steady,
-                tessellator: Tessellator::default(),
+                tessellator: Box::default(),
                 walked: None,
                 waves: Waves::new(config.domain.cache_entries, config.domain.width as u16),
                 read: channel.map(|_| burst),
@@ -132,7 +132,7 @@ impl Step<Pattern> for Points {
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Connect {
     steady: Steady,
-    tessellator: Tessellator,
+    tessellator: Box<Tessellator>,
     /// What the tessellator made last.
     walked: Option<Processed>,
     waves: Waves,
