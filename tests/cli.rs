@@ -133,16 +133,18 @@ fn engines_write_the_same_bytes_and_none_writes_no_cycles() {
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
-    for form in ["ply", "obj", "svg"] {
+    for (form, unit) in [("ply", "hybrid"), ("obj", "hybrid"), ("svg", "hybrid"), ("ply", "d3d11")]
+    {
         let results = ["1", "2", "3"].map(|threads| {
-            let out = folder.path().join(format!("{form}{threads}"));
+            let out = folder.path().join(format!("{form}{unit}{threads}"));
             let arguments = ["--threads", threads, "--mesh", form, "--set", "level.level=5.5"];
+            let arguments = [&arguments[..], &["--unit", unit]].concat();
             run(&arguments, &trace("mesh.jsonl"), &out);
             let read = |name: &str| fs::read(out.join(name)).unwrap();
             let mesh = read(&format!("mesh.{form}"));
             [read("counters.csv"), read("occupancy.csv"), read("summary.json"), mesh]
         });
-        assert!(results[0] == results[1] && results[1] == results[2], "{form}");
+        assert!(results[0] == results[1] && results[1] == results[2], "{form} of {unit}");
     }
 }
 

@@ -193,3 +193,52 @@ fn count_bursts(patches: u64, bytes: u64, config: &Config, counters: &mut Counte
     counters.add(Counter::MemoryPatchBursts, patches * bursts);
     counters.add(Counter::MemoryWasted, patches * (bursts * burst - bytes));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn level(segments: f64) -> Level {
+        Level::clamped((segments * 65536.0) as u64)
+    }
+
+    #[test]
+    fn levels_stand_in_the_order_of_the_tessellator() {
+        let edges = [1.5, 2.0, 3.25, 4.0].map(level); // v0 u1 v1 u0
+        let levels = Levels { edges, interior: [5.0, 6.75].map(level) };
+        assert_eq!(in_order(&levels), [4.0, 1.5, 2.0, 3.25, 5.0, 6.75]);
+    }
+
+    #[test]
+    fn the_hull_shader_rounds_up_to_powers_of_two_where_the_tessellator_trusts_it_to() {
+        let factors = [1.0, 1.25, 2.0, 4.5, 33.0, 64.0];
+        let of = |partitioning| written(factors, partitioning).map(f32::from_bits);
+        assert_eq!(of(Partitioning::Pow2), [1.0, 2.0, 2.0, 8.0, 64.0, 64.0]);
+        for partitioning in [Partitioning::Integer, Partitioning::Odd, Partitioning::Even] {
+            assert_eq!(of(partitioning), factors);
+        }
+    }
+
+    #[test]
+    fn what_the_tessellator_does_not_reach_is_clamped_and_counted() {
+        let state = |min, max| State {
+            criterion: Criterion::Fixed { level: Level::MIN },
+            min: level(min),
+            max: level(max),
+        };
+        let odd = reachable(&state(1.0, 128.0), Partitioning::Odd);
+        assert_eq!((odd.min, odd.max), (level(1.0), level(63.0)));
+        let even = reachable(&state(70.0, 128.0), Partitioning::Even);
+        assert_eq!((even.min, even.max), (level(64.0), level(64.0)));
+        let (factors, clamped) = granted([3.0, 9.0, 12.0, 12.0, 4.0, 12.5], &state(4.0, 12.0));
+        assert_eq!((factors, clamped), ([4.0, 9.0, 12.0, 12.0, 4.0, 12.0], 1));
+    }
+
+    #[test]
+    fn a_patch_is_handed_on_in_280_bytes_and_its_corners_attributes() {
+        let config = Config::default(); // components of 32 bits
+        assert_eq!([0, 1, 6].map(|n| hull_bytes(n, &config)), [280, 296, 376]);
+        let pattern = Pattern { hull_bytes: 280, ..Pattern::default() };
+        assert_eq!([8, 32, 4096].map(|burst| pattern.moved(burst)), [280, 288, 4096]);
+    }
+}

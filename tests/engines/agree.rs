@@ -380,11 +380,16 @@ fn threads_and_meshes_do_not_change_what_is_timed() {
     // More patches than a batch holds, with commands among them; and instances of one draw.
     let traces = [runs::grid(66, 1), runs::teacups(170, 2, 1), runs::shipped("mesh")];
     let unified = ["unit=sfarti", "level.union=primitive"];
+    let shaders = ["unit=d3d11", "domain.cache_entries=8", "hull.to_memory=true"];
     let mut runs = 0;
     for (k, text) in traces.iter().enumerate() {
-        for settings in
-            [&[][..], &["unit=triangles", "frames=overlap"], &["memory.channels=shared"], &unified]
-        {
+        for settings in [
+            &[][..],
+            &["unit=triangles", "frames=overlap"],
+            &["memory.channels=shared"],
+            &unified,
+            &shaders,
+        ] {
             let config = set(settings);
             let expected = said(&runs::run(text, &config));
             for threads in [1, 2, 3, 7] {

@@ -166,3 +166,51 @@ fn agp_8x_brings_66_6_million_vertices_of_32_bytes_a_second() {
         assert!(indices == 6 * triangles || indices == 12 * triangles);
     }
 }
+
+/// Unit `d3d11`, eight segments everywhere: 9 x 9 points, 128 triangles a patch.
+const SHADERS: [&str; 3] = ["unit=d3d11", "level.level=8", "tessellator.partitioning=integer"];
+
+fn shaders(settings: &[&str]) -> Report {
+    run(&runs::shipped("teapot"), &set(&[&SHADERS, settings].concat()))
+}
+
+#[test]
+fn each_stage_of_shaders_and_tessellator_is_used_for_what_it_does() {
+    let report = shaders(&[]);
+    let kept = report.total(Counter::LevelPatches);
+    assert!(kept < 32, "some patches are culled");
+    let used = |block| row(&report, block, "cycles.used");
+    assert_eq!(used("hull"), 32 * 17, "16 threads for control points and one for factors");
+    assert_eq!(used("factors"), 32 * 6);
+    assert_eq!(used("points"), kept * 81);
+    assert_eq!(used("connect"), kept * 128);
+    assert_eq!(used("domain"), kept * 2 * 64, "two waves of 64, a cycle a lane, idle or not");
+    let naive = shaders(&["domain.shader=naive"]);
+    assert_eq!(row(&naive, "domain", "cycles.used"), kept * 2 * 256);
+    // Without a cache: 384 points in six waves.
+    let none = shaders(&["domain.cache_entries=0"]);
+    assert_eq!(row(&none, "domain", "cycles.used"), kept * 6 * 64);
+    assert!(elapsed(&none) > elapsed(&report) && elapsed(&naive) > elapsed(&report));
+    println!("compared {} with {} cycles", elapsed(&report), elapsed(&naive));
+}
+
+#[test]
+fn what_a_hull_shader_writes_holds_memory_for_its_bytes() {
+    // 40 MB/s at 2 GHz: a byte takes 50 cycles, a patch of nine bursts of 32 bytes 14 400.
+    let slow = ["hull.to_memory=true", "memory.bandwidth_mb_s=40"];
+    let report = shaders(&slow);
+    let kept = report.total(Counter::LevelPatches);
+    let patch = 9 * 32 * 50;
+    assert_eq!(row(&report, "hull", "cycles.used"), 32 * patch);
+    // The second wave of a patch needs nothing more.
+    assert_eq!(row(&report, "domain", "cycles.used"), kept * (patch + 64));
+    let on_chip = shaders(&["memory.bandwidth_mb_s=40"]);
+    assert_eq!(row(&on_chip, "hull", "cycles.used"), 32 * 17);
+    // One port for both: it is held for all that is written and read, one after another.
+    let shared = shaders(&[slow[0], slow[1], "memory.channels=shared"]);
+    let bytes = shared.total(Counter::MemoryBursts) * 32;
+    assert_eq!(bytes, (32 + kept) * 9 * 32);
+    assert!(elapsed(&shared) >= 50 * bytes, "{} cycles for {bytes} bytes", elapsed(&shared));
+    assert!(elapsed(&shared) < 50 * bytes + patch, "{} cycles", elapsed(&shared));
+    println!("compared {} with {} cycles", elapsed(&report), elapsed(&shared));
+}

@@ -177,9 +177,14 @@ impl Channel {
         Self { wire, shared: config.memory.channels == Channels::Shared }
     }
 
-    /// Cycles for which so many bytes hold the stage up.
-    pub(super) fn hold(&mut self, bytes: u64) -> u64 {
+    /// Cycles for which so many bytes that are written hold the stage up.
+    pub(super) fn write(&mut self, bytes: u64) -> u64 {
         if self.shared { 0 } else { self.wire.occupy(bytes) }
+    }
+
+    /// Cycles until so many bytes have come, and for which they hold the stage up.
+    pub(super) fn read(&mut self, bytes: u64) -> [u64; 2] {
+        if self.shared { [self.wire.whole_cycles(bytes), 0] } else { [self.wire.occupy(bytes); 2] }
     }
 
     /// Cycles for which so many bytes hold the shared port, if it is one.

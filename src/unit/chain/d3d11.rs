@@ -92,7 +92,7 @@ impl Step<Pattern> for Hull {
         let mut cost = self.steady.cost(THREADS);
         if let Some(channel) = &mut self.channel {
             // Written behind the shader: it takes the next patch when the last one's is through.
-            let written = channel.hold(work.lists.moved(self.burst));
+            let written = channel.write(work.lists.moved(self.burst));
             cost.interval = cost.interval.max(written);
         }
         one(token, cost, out)
@@ -175,9 +175,9 @@ impl Step<Pattern> for Domain {
         let Token::Wave(wave) = token else { misled(token) };
         let mut cost = self.steady.cost(1);
         if let (Some(channel), 1..) = (&mut self.channel, wave.read) {
-            let held = channel.hold(wave.read.into());
+            let [come, held] = channel.read(wave.read.into());
             cost.interval = cost.interval.max(held);
-            cost.latency += self.latency + held;
+            cost.latency += self.latency + come;
         }
         one(token, cost, out)
     }

@@ -161,7 +161,7 @@ impl<T: Topology + 'static> Step<T> for VertexShader {
         let mut cost = self.0.cost(1);
         if let Some((channel, bytes)) = &mut self.1 {
             // Written behind the shader: it takes the next vertex when the last one's is through.
-            cost.interval = cost.interval.max(channel.hold(*bytes));
+            cost.interval = cost.interval.max(channel.write(*bytes));
         }
         one(token, cost, out)
     }
