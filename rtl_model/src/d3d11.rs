@@ -30,7 +30,6 @@ mod stitch;
 mod walk;
 
 pub use factor::Factors;
-pub use place::List;
 
 use serde::{Deserialize, Serialize};
 
@@ -119,10 +118,12 @@ impl Tessellator {
         self.index_count = factors.indices(output);
         grow(&mut self.points, self.point_count + points::SLACK);
         grow(&mut self.indices, self.index_count + stitch::SLACK);
+        // The lists are read as other vectors than they are written: some time in between lets the
+        // processor finish writing.
         self.lists.set(factors);
-        self.lists.write(factors, &mut self.points[..self.point_count + points::SLACK]);
         let indices = &mut self.indices[..self.index_count + stitch::SLACK];
         stitch::write(factors, output, indices);
+        self.lists.write(factors, &mut self.points[..self.point_count + points::SLACK]);
     }
 
     /// The domain points [u, v] in U1.16, in the unit's order: at most 4225.

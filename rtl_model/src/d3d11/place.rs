@@ -64,7 +64,7 @@ const PAST_ALL: i32 = 64;
 
 /// The points of one factor.
 #[derive(Clone, Debug)]
-pub struct List {
+pub(super) struct List {
     factor: Factor,
     /// Where the points begin.
     first: usize,
@@ -93,10 +93,9 @@ impl List {
         }
     }
 
-    /// The parameters, 0 to 65536. Number k from the other end is 65536 minus number k.
-    #[must_use]
-    pub fn parameters(&self) -> &[u32] {
-        &self.parameters[self.first..self.first + self.count]
+    /// Parameter number k, 0 to 65536. Number k from the other end is 65536 less it.
+    pub(super) fn at(&self, k: usize) -> u32 {
+        self.parameters[self.first + k]
     }
 
     /// The number of the last parameter, which is the number of segments: 1 to 64.
@@ -104,7 +103,7 @@ impl List {
         self.count - 1
     }
 
-    /// The parameters, and after them at least 15 numbers that mean nothing.
+    /// The parameters; then at least 15 that mean nothing.
     pub(super) fn padded(&self) -> &[u32] {
         &self.parameters[self.first..]
     }

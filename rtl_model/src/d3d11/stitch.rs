@@ -205,10 +205,9 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
     fn copy(&mut self, numbers: &[u16], count: usize, first: u16) {
         let (blocks, _) = numbers.as_chunks::<INSIDE_BLOCK>();
         let (out, _) = self.out[self.at..].as_chunks_mut::<INSIDE_BLOCK>();
-        for (out, block) in out.iter_mut().zip(blocks).take(count.div_ceil(INSIDE_BLOCK)) {
-            for (out, number) in out.iter_mut().zip(block) {
-                *out = number.wrapping_add(first);
-            }
+        for (out, &block) in out.iter_mut().zip(blocks).take(count.div_ceil(INSIDE_BLOCK)) {
+            // All are read before any is written, so that they can be added as vectors.
+            *out = block.map(|number| number.wrapping_add(first));
         }
         self.at += count;
     }
