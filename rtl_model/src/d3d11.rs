@@ -5,16 +5,18 @@
 //! patch but its factors: one for each edge, and for the interior one (tri) or two (quad).
 //!
 //! ```text
-//!  v = 1 0─────7─────6   the outer ring starts at (0, 1) and runs down U = 0, then V = 0, U = 1
-//!        │ ╲  ╱ ╲  ╱ │   and V = 1; each edge has the points of its own factor
-//!        │  8─────A  │
-//!        1 ╱│╲    │╲ │   inner rings follow the same way, on the grid of the inner factors; an
-//!        │╱ │  ╲  │ ╲5   even axis ends in a middle row, column or point
-//!        │  9─────B  │
-//!        │ ╱ ╲  ╱  ╲ │   only the outermost strip is a transition between two factors: the strips
-//!  v = 0 2────3──────4   further in join rings of which each side loses a segment at either end
+//!   v = 1  0─────7─────6   the outer ring starts at (0, 1) and runs down U = 0, then along V = 0,
+//!          │ ╲   │   ╱ │   up U = 1 and back along V = 1; each edge has the points of its own
+//!          │   ╲ │ ╱   │   factor
+//!          1─────8─────5
+//!          │   ╱ │ ╲   │   inner rings go the same way, on the grid of the inner factors; an even
+//!          │ ╱   │   ╲ │   axis ends in a middle row, column or point (all factors are 2 here)
+//!   v = 0  2─────3─────4
 //!        u = 0       u = 1
 //! ```
+//!
+//! Only the outermost strip is a transition between two factors; the strips further in join rings
+//! of which each side loses a segment at either end.
 //!
 //! Everything is in 16.16: `Factors::process` converts each f32 once, to nearest with ties to even,
 //! and no float is seen again. A factor alone decides where the points of its edge are (`place`),

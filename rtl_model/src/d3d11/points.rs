@@ -98,9 +98,7 @@ impl Lists {
             run.put::<SIDE>(&U_UP, inner, ring, along, [0_u32.wrapping_sub(back), off]);
             run.put::<SIDE>(&W_DOWN, inner, ring, along, [ONE - back, back.wrapping_sub(off)]);
         }
-        if segments.is_multiple_of(2) {
-            run.out[run.at] = [THIRD, THIRD];
-        }
+        run.out[run.at] = [THIRD, THIRD]; // means nothing where the segments are odd
     }
 }
 
