@@ -5,16 +5,18 @@
 //! patch but its factors: one for each edge, and for the interior one (tri) or two (quad).
 //!
 //! ```text
-//!  v = 1 0─────7─────6   the outer ring starts at (0, 1) and runs down U = 0, then V = 0, U = 1
-//!        │ ╲  ╱ ╲  ╱ │   and V = 1; each edge has the points of its own factor
-//!        │  8─────A  │
-//!        1 ╱│╲    │╲ │   inner rings follow the same way, on the grid of the inner factors; an
-//!        │╱ │  ╲  │ ╲5   even axis ends in a middle row, column or point
-//!        │  9─────B  │
-//!        │ ╱ ╲  ╱  ╲ │   only the outermost strip is a transition between two factors: the strips
-//!  v = 0 2────3──────4   further in join rings of which each side loses a segment at either end
+//!   v = 1  0─────7─────6   the outer ring starts at (0, 1) and runs down U = 0, then along V = 0,
+//!          │ ╲   │   ╱ │   up U = 1 and back along V = 1; each edge has the points of its own
+//!          │   ╲ │ ╱   │   factor
+//!          1─────8─────5
+//!          │   ╱ │ ╲   │   inner rings go the same way, on the grid of the inner factors; an even
+//!          │ ╱   │   ╲ │   axis ends in a middle row, column or point (all factors are 2 here)
+//!   v = 0  2─────3─────4
 //!        u = 0       u = 1
 //! ```
+//!
+//! Only the outermost strip is a transition between two factors; the strips further in join rings
+//! of which each side loses a segment at either end.
 //!
 //! Everything is in 16.16: `Factors::process` converts each f32 once, to nearest with ties to even,
 //! and no float is seen again. A factor alone decides where the points of its edge are (`place`),
@@ -31,7 +33,6 @@ mod walk;
 pub mod wave;
 
 pub use factor::Factors;
-pub use place::List;
 
 use serde::{Deserialize, Serialize};
 
@@ -120,10 +121,12 @@ impl Tessellator {
         self.index_count = factors.indices(output);
         grow(&mut self.points, self.point_count + points::SLACK);
         grow(&mut self.indices, self.index_count + stitch::SLACK);
+        // The lists are read as other vectors than they are written: some time in between lets the
+        // processor finish writing.
         self.lists.set(factors);
-        self.lists.write(factors, &mut self.points[..self.point_count + points::SLACK]);
         let indices = &mut self.indices[..self.index_count + stitch::SLACK];
         stitch::write(factors, output, indices);
+        self.lists.write(factors, &mut self.points[..self.point_count + points::SLACK]);
     }
 
     /// The domain points [u, v] in U1.16, in the unit's order: at most 4225.

@@ -46,6 +46,35 @@ const RECIPROCALS: [u32; 65] = {
     table
 };
 
+/// The two partitions that a factor is between.
+#[derive(Clone, Copy)]
+struct Partitions {
+    /// Reciprocals of their segments; of the coarser one 0 if it has none.
+    floor: u32,
+    ceil: u32,
+    /// The point of the finer half-edge that splits off: the next one of the ruler's order.
+    split: i32,
+}
+
+/// By parity (odd second), then by points of the half-edge in the finer partition, 1 to 33.
+static PARTITIONS: [[Partitions; 34]; 2] = {
+    let mut table = [[Partitions { floor: 0, ceil: 0, split: 0 }; 34]; 2];
+    let mut k = 0;
+    while k < 66 {
+        let (odd, points) = (k % 2, 1 + k / 2);
+        if 2 * points - odd <= 64 {
+            // Points before the one in the middle, or before the last of an odd half.
+            let before = points - 1 - if points > 1 { odd } else { 0 };
+            let floor = if points > 1 { RECIPROCALS[2 * (points - 1) - odd] } else { 0 };
+            let ceil = RECIPROCALS[2 * points - odd];
+            let split = if before == 0 { 0 } else { 2 * (before ^ (1 << before.ilog2())) + 1 };
+            table[odd][points] = Partitions { floor, ceil, split: split as i32 };
+        }
+        k += 1;
+    }
+    table
+};
+
 /// All ones for the points of a half-edge after the split, from the centre outwards: from number
 /// [`BEFORE`] less as many as there are. A table, and not a comparison, for the sake of speed.
 static AFTER_SPLIT: [u32; 176] = {
@@ -59,12 +88,9 @@ static AFTER_SPLIT: [u32; 176] = {
 };
 const BEFORE: i32 = 64;
 
-/// A split where the partitions are the same: after every point.
-const PAST_ALL: i32 = 64;
-
 /// The points of one factor.
 #[derive(Clone, Debug)]
-pub struct List {
+pub(super) struct List {
     factor: Factor,
     /// Where the points begin.
     first: usize,
@@ -93,10 +119,9 @@ impl List {
         }
     }
 
-    /// The parameters, 0 to 65536. Number k from the other end is 65536 minus number k.
-    #[must_use]
-    pub fn parameters(&self) -> &[u32] {
-        &self.parameters[self.first..self.first + self.count]
+    /// Parameter number k, 0 to 65536. Number k from the other end is 65536 less it.
+    pub(super) fn at(&self, k: usize) -> u32 {
+        self.parameters[self.first + k]
     }
 
     /// The number of the last parameter, which is the number of segments: 1 to 64.
@@ -104,7 +129,7 @@ impl List {
         self.count - 1
     }
 
-    /// The parameters, and after them at least 15 numbers that mean nothing.
+    /// The parameters; then at least 15 that mean nothing.
     pub(super) fn padded(&self) -> &[u32] {
         &self.parameters[self.first..]
     }
@@ -112,17 +137,18 @@ impl List {
     #[inline]
     fn fill(&mut self) {
         let (half, odd) = (self.factor.half(), usize::from(self.factor.odd));
-        let (floor, points): (usize, usize) = (half.to_num(), half.ceil().to_num());
-        let t = half.frac().to_bits(); // U0.16
+        let points: usize = half.ceil().to_num();
+        let Partitions { floor, ceil, split } = PARTITIONS[odd][points];
+        // Where they are the same, it is all ceil partition: 1 to 65536.
+        let t = half.to_bits() - ((points as u32 - 1) << 16);
         // Both partitions' steps, weighted: U1.32, 2^32 in sum where there is a single segment.
-        let of_floor = RECIPROCALS[2 * floor - odd].wrapping_mul(ONE - t);
-        let step = of_floor.wrapping_add(RECIPROCALS[2 * points - odd].wrapping_mul(t));
+        let of_floor = floor.wrapping_mul(ONE - t);
+        let step = of_floor.wrapping_add(ceil.wrapping_mul(t));
         self.first = CENTRE - points;
         self.count = 2 * points + 1 - odd;
         self.parameters[CENTRE] = HALF; // an odd list's far half has its first point here
         // From the centre outwards, so that what is too many lies outside: number q of a half is
         // point p = points - 1 - q, and after the split where q is below this.
-        let split = if t == 0 { PAST_ALL } else { SPLITS[floor - odd].into() };
         let split = points as i32 - 1 - split;
         let last = (1_u32 << 15).wrapping_add((points as u32 - 1).wrapping_mul(step)); // half an ulp
         let mut at = [last, last.wrapping_sub(step), 0, 0];
@@ -161,16 +187,3 @@ impl List {
         *place = parameters.map(|parameter| ONE.wrapping_sub(parameter));
     }
 }
-
-/// The point of the half-edge that splits, by the points before the one in or next to the middle:
-/// the next one of the ruler's order. A factor has 1 to 32 of them, an odd one 0 to 31.
-static SPLITS: [u8; 33] = {
-    let mut table = [0; 33];
-    let mut points: usize = 1;
-    while points <= 32 {
-        let without_top_bit = points ^ (1 << points.ilog2());
-        table[points] = (without_top_bit << 1) as u8 + 1;
-        points += 1;
-    }
-    table
-};

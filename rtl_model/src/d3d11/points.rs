@@ -5,7 +5,8 @@
 //! off the edges by two thirds of the inner list (so that the centre is at the centroid), and their
 //! corners are pulled in by half of that; u + v + w = 1 makes the third edge.
 
-use super::{Domain, Factors, List};
+use super::place::List;
+use super::{Domain, Factors};
 
 /// Points that are made at once, of an edge; so many after the last one may be written, which mean
 /// nothing. Where many factors are alike, so is the number of handfuls, and no branch is missed.
@@ -48,8 +49,8 @@ impl Lists {
             Domain::Tri => self.tri(&mut run, factors.least()),
             Domain::Isoline => {
                 let [across, along, ..] = &self.0;
-                for &v in &across.parameters()[..factors.lines()] {
-                    run.put::<1, 0, SLACK>(along, 0, along.last() + 1, [0, v]);
+                for &v in &across.padded()[..factors.lines()] {
+                    run.put::<SLACK>(&U_UP, along, 0, along.last() + 1, [0, v]);
                 }
             }
         }
@@ -57,51 +58,72 @@ impl Lists {
 
     fn quad(&self, run: &mut Run<'_>) {
         let [u0, v0, u1, v1, u, v] = &self.0;
-        run.put::<0, -1, SLACK>(u0, 0, u0.last(), [0, ONE]);
-        run.put::<1, 0, SLACK>(v0, 0, v0.last(), [0, 0]);
-        run.put::<0, 1, SLACK>(u1, 0, u1.last(), [ONE, 0]);
-        run.put::<-1, 0, SLACK>(v1, 0, v1.last(), [ONE, ONE]);
+        run.put::<SLACK>(&V_DOWN, u0, 0, u0.last(), [0, ONE]);
+        run.put::<SLACK>(&U_UP, v0, 0, v0.last(), [0, 0]);
+        run.put::<SLACK>(&V_UP, u1, 0, u1.last(), [ONE, 0]);
+        run.put::<SLACK>(&U_DOWN, v1, 0, v1.last(), [ONE, ONE]);
         let [columns, rows] = [u.last(), v.last()]; // segments
         let rings = rows.min(columns).div_ceil(2);
         for ring in 1..rings {
-            let [low_u, low_v] = [u.parameters()[ring], v.parameters()[ring]];
+            let [low_u, low_v] = [u.at(ring), v.at(ring)];
             let [along_u, along_v] = [columns - 2 * ring, rows - 2 * ring];
-            run.put::<0, -1, SIDE>(v, ring, along_v, [low_u, ONE]);
-            run.put::<1, 0, SIDE>(u, ring, along_u, [0, low_v]);
-            run.put::<0, 1, SIDE>(v, ring, along_v, [ONE - low_u, 0]);
-            run.put::<-1, 0, SIDE>(u, ring, along_u, [ONE, ONE - low_v]);
+            run.put::<SIDE>(&V_DOWN, v, ring, along_v, [low_u, ONE]);
+            run.put::<SIDE>(&U_UP, u, ring, along_u, [0, low_v]);
+            run.put::<SIDE>(&V_UP, v, ring, along_v, [ONE - low_u, 0]);
+            run.put::<SIDE>(&U_DOWN, u, ring, along_u, [ONE, ONE - low_v]);
         }
         // An even axis ends in a row or a column, which is the near and the far side of a ring.
         if rows <= columns && rows.is_multiple_of(2) {
-            run.put::<1, 0, SIDE>(u, rings, columns + 1 - 2 * rings, [0, HALF]);
+            run.put::<SIDE>(&U_UP, u, rings, columns + 1 - 2 * rings, [0, HALF]);
         } else if columns < rows && columns.is_multiple_of(2) {
-            run.put::<0, -1, SIDE>(v, rings, rows + 1 - 2 * rings, [HALF, ONE]);
+            run.put::<SIDE>(&V_DOWN, v, rings, rows + 1 - 2 * rings, [HALF, ONE]);
         }
     }
 
     fn tri(&self, run: &mut Run<'_>, least: bool) {
         let [u0, v0, w0, inner, ..] = &self.0;
-        run.put::<0, -1, SLACK>(u0, 0, u0.last(), [0, ONE]);
-        run.put::<1, 0, SLACK>(v0, 0, v0.last(), [0, 0]);
-        run.put::<-1, 1, SLACK>(w0, 0, w0.last(), [ONE, 0]);
+        run.put::<SLACK>(&V_DOWN, u0, 0, u0.last(), [0, ONE]);
+        run.put::<SLACK>(&U_UP, v0, 0, v0.last(), [0, 0]);
+        run.put::<SLACK>(&W_DOWN, w0, 0, w0.last(), [ONE, 0]);
         if least {
             return;
         }
         let segments = inner.last();
         for ring in 1..segments.div_ceil(2) {
-            let parameter = inner.parameters()[ring];
+            let parameter = inner.at(ring);
             let off = (parameter * TWO_THIRDS + (1 << 15)) >> 16; // 31 bits before the shift
             let back = off.div_ceil(2);
             let along = segments - 2 * ring;
-            run.put::<0, -1, SIDE>(inner, ring, along, [off, ONE - back]);
-            run.put::<1, 0, SIDE>(inner, ring, along, [0_u32.wrapping_sub(back), off]);
-            run.put::<-1, 1, SIDE>(inner, ring, along, [ONE - back, back.wrapping_sub(off)]);
+            run.put::<SIDE>(&V_DOWN, inner, ring, along, [off, ONE - back]);
+            run.put::<SIDE>(&U_UP, inner, ring, along, [0_u32.wrapping_sub(back), off]);
+            run.put::<SIDE>(&W_DOWN, inner, ring, along, [ONE - back, back.wrapping_sub(off)]);
         }
-        if segments.is_multiple_of(2) {
-            run.out[run.at] = [THIRD, THIRD];
-        }
+        run.out[run.at] = [THIRD, THIRD]; // means nothing where the segments are odd
     }
 }
+
+/// With which sign t goes into u and v, of two points: not kept, flipped (all bits: the 1 that makes
+/// it -t is in the base) or as it is.
+struct Sign {
+    keep: [u32; 4],
+    flip: [u32; 4],
+}
+
+impl Sign {
+    const fn new(u: i32, v: i32) -> Self {
+        let [keep_u, keep_v] =
+            [if u == 0 { 0 } else { u32::MAX }, if v == 0 { 0 } else { u32::MAX }];
+        let [flip_u, flip_v] = [if u < 0 { u32::MAX } else { 0 }, if v < 0 { u32::MAX } else { 0 }];
+        Self { keep: [keep_u, keep_v, keep_u, keep_v], flip: [flip_u, flip_v, flip_u, flip_v] }
+    }
+}
+
+static U_UP: Sign = Sign::new(1, 0);
+static U_DOWN: Sign = Sign::new(-1, 0);
+static V_UP: Sign = Sign::new(0, 1);
+static V_DOWN: Sign = Sign::new(0, -1);
+/// Along w = 0 and what is parallel to it.
+static W_DOWN: Sign = Sign::new(-1, 1);
 
 /// Where the next points go.
 struct Run<'a> {
@@ -110,20 +132,25 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Puts `count` points, one for each parameter t of `list` from number `first` on: `base` plus
-    /// U t and V t. They are made `N` at a time: what is too many is overwritten by what follows.
+    /// Puts `count` points, one for each parameter t of `list` from number `first` on: `base`, and
+    /// t with its sign. They are made `N` at a time: what is too many is overwritten by what
+    /// follows.
     #[inline(never)]
-    fn put<const U: i32, const V: i32, const N: usize>(
+    fn put<const N: usize>(
         &mut self,
+        sign: &Sign,
         list: &List,
         first: usize,
         count: usize,
-        base: [u32; 2],
+        [u, v]: [u32; 2],
     ) {
+        // -t is !t + 1.
+        let [u, v] = [u.wrapping_sub(sign.flip[0]), v.wrapping_sub(sign.flip[1])];
+        let base = [u, v, u, v];
         let (list, out) = (&list.padded()[first..], &mut self.out[self.at..]);
         let mut done = 0;
         loop {
-            points::<U, V, N>(list, out, done, base);
+            points::<N>(list, out, done, &base, sign);
             done += N;
             if done >= count {
                 break;
@@ -135,16 +162,21 @@ impl Run<'_> {
 
 /// `N` points from number `at` on.
 #[inline(always)]
-fn points<const U: i32, const V: i32, const N: usize>(
+fn points<const N: usize>(
     list: &[u32],
     out: &mut [[u32; 2]],
     at: usize,
-    [u, v]: [u32; 2],
+    base: &[u32; 4],
+    sign: &Sign,
 ) {
-    let parameters: &[u32; N] = list[at..].first_chunk().expect(ROOM);
+    let list: &[u32; N] = list[at..].first_chunk().expect(ROOM);
     let out: &mut [[u32; 2]; N] = out[at..].first_chunk_mut().expect(ROOM);
-    for (out, &parameter) in out.iter_mut().zip(parameters) {
-        let times = |sign: i32| parameter.wrapping_mul(sign as u32);
-        *out = [u.wrapping_add(times(U)), v.wrapping_add(times(V))];
+    let pairs = list.as_chunks::<2>().0;
+    for (out, &[a, b]) in out.as_flattened_mut().as_chunks_mut::<4>().0.iter_mut().zip(pairs) {
+        let (mut two, pair) = (*base, [a, a, b, b]);
+        for k in 0..4 {
+            two[k] = two[k].wrapping_add((pair[k] ^ sign.flip[k]) & sign.keep[k]);
+        }
+        *out = two;
     }
 }

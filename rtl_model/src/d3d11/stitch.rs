@@ -1,24 +1,23 @@
 //! Stitch: the counts of a pattern's factors in, its indices out.
 //!
 //! Ring by ring from the outside, side by side in the order of the points. The outermost strip is
-//! a transition between each edge and the inner partition (`walk`(super::walk)); further in,
-//! each side of a ring has two segments more than the one inside it, and diagonals that point at
-//! the corners:
+//! a transition between each edge and the inner partition (`walk`); further in,
+//! each side of a ring has two segments more than the one inside it, and diagonals that lean
+//! towards the middle:
 //!
 //! ```text
-//!   outer  0─────1─────2─────3─────4─────5     one triangle at either end,
-//!           ╲   ╱│  ╱  │  ╱  │  ╲  │╲   ╱      a pair for each segment of the inner row:
-//!            ╲ ╱ │╱    │╱    │    ╲│ ╲ ╱       the middle one belongs to the first half
-//!   inner     0──┴──1──┴──2──┴──3──┘
+//!   outer  0────1────2────3────4────5     one triangle at either end, and between them a pair
+//!           ╲   │╲   │╲   │   ╱│   ╱      for each segment of the inner row, of which the middle
+//!             ╲ │  ╲ │  ╲ │ ╱  │ ╱        one is of the first half's kind
+//!   inner       0────1────2────3
 //! ```
 //!
 //! A ring's points are numbered one after another, so a row is a first number and a direction, and
 //! the last side's last point is the ring's first one. An even axis ends in a point or a line whose
 //! far side is walked backwards; an odd one in a triangle (tri) or a strip (quad).
 //!
-//! Five triangles of a walk, or four pairs of a strip, are written at once: the numbers of a
-//! triangle are those of the two rows' points plus constants. What is written too many is
-//! overwritten by what follows.
+//! Triangles are written by the handful (`group`), and small rings with all that is inside them at
+//! once (`inside`): what is written too many is overwritten by what follows.
 
 use super::group::{GROUPS, Group, Next, PAIRS, STEPS};
 use super::inside::{self, BLOCK as INSIDE_BLOCK, Insides};
@@ -26,7 +25,7 @@ use super::walk::{self, Walk};
 use super::{Domain, Factors, Output};
 
 /// Indices after the last one that may be written: their values mean nothing.
-pub(super) const SLACK: usize = 96;
+pub(super) const SLACK: usize = 128;
 
 /// Groups of a walk that are made before it is asked whether it ends, and their numbers.
 const BLOCK: usize = 4;
@@ -205,10 +204,9 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
     fn copy(&mut self, numbers: &[u16], count: usize, first: u16) {
         let (blocks, _) = numbers.as_chunks::<INSIDE_BLOCK>();
         let (out, _) = self.out[self.at..].as_chunks_mut::<INSIDE_BLOCK>();
-        for (out, block) in out.iter_mut().zip(blocks).take(count.div_ceil(INSIDE_BLOCK)) {
-            for (out, number) in out.iter_mut().zip(block) {
-                *out = number.wrapping_add(first);
-            }
+        for (out, &block) in out.iter_mut().zip(blocks).take(count.div_ceil(INSIDE_BLOCK)) {
+            // All are read before any is written, so that they can be added as vectors.
+            *out = block.map(|number| number.wrapping_add(first));
         }
         self.at += count;
     }

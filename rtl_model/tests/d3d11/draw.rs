@@ -21,7 +21,7 @@ impl Random {
     }
 
     pub(crate) fn below(&mut self, bound: u32) -> u32 {
-        ((self.bits() >> 32) * u64::from(bound) >> 32) as u32
+        (((self.bits() >> 32) * u64::from(bound)) >> 32) as u32
     }
 
     /// The bits of a factor that does not cull: below 20 mostly, to 65, around integers and 1.
@@ -51,7 +51,7 @@ pub(crate) fn pattern(factors: &Factors, output: Output) -> (Vec<[u32; 2]>, Vec<
 pub(crate) fn quad_edge(factors: &Factors, points: &[[u32; 2]], edge: usize) -> Vec<u32> {
     let first: usize = (0..edge).map(|e| factors.edge_points(e) - 1).sum();
     let ring: usize = (0..4).map(|e| factors.edge_points(e) - 1).sum();
-    let along = if edge % 2 == 0 { 1 } else { 0 };
+    let along = 1 - edge % 2;
     let on_edge = (first..first + factors.edge_points(edge)).map(|k| points[k % ring]);
     let mut list: Vec<u32> = on_edge.map(|point| point[along]).collect();
     if edge == 0 || edge == 3 {

@@ -32,8 +32,8 @@ fn bits(fx16: u32) -> u32 {
 
 /// The line of a factor: an isoline pattern of one line is an edge by itself.
 fn edge(partitioning: Partitioning, fx16: u32) -> Vec<u32> {
-    let factors =
-        Factors::process(Domain::Isoline, partitioning, &[1f32.to_bits(), bits(fx16)]).unwrap();
+    let factors = Factors::process(Domain::Isoline, partitioning, &[1f32.to_bits(), bits(fx16)])
+        .expect("no factor culls");
     pattern(&factors, Output::Point).0.iter().map(|[u, _]| *u).collect()
 }
 
@@ -43,7 +43,8 @@ fn sweep(partitioning: Partitioning, factors: std::ops::RangeInclusive<u32>) -> 
     for fx16 in factors {
         let list = edge(partitioning, fx16);
         assert_eq!((list[0], list[list.len() - 1]), (0, ONE), "{partitioning:?} {fx16}");
-        let back = list.windows(2).map(|pair| pair[0].saturating_sub(pair[1])).max().unwrap();
+        let backwards = list.windows(2).map(|pair| pair[0].saturating_sub(pair[1]));
+        let back = backwards.max().expect("two points");
         points += list.len() as u64;
         match runs.last_mut() {
             _ if back == 0 => {}

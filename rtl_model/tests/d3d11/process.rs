@@ -15,7 +15,7 @@ fn value(bits: u32) -> Option<BigRational> {
         x if x.is_nan() => None,
         f32::INFINITY => Some(ratio(1 << 40, 1)),
         f32::NEG_INFINITY => Some(ratio(-(1 << 40), 1)),
-        x => Some(BigRational::from_float(x).unwrap()),
+        x => Some(BigRational::from_float(x).expect("finite")),
     }
 }
 
@@ -24,7 +24,7 @@ fn value(bits: u32) -> Option<BigRational> {
 fn points(partitioning: Partitioning, value: Option<BigRational>, least: &BigRational) -> usize {
     let most = ratio(if partitioning == Partitioning::Odd { 63 } else { 64 }, 1);
     let clamped = value.unwrap_or_else(|| least.clone()).max(least.clone()).min(most);
-    let count = |rounded: BigRational| -> i64 { rounded.to_integer().try_into().unwrap() };
+    let count = |rounded: BigRational| -> i64 { rounded.to_integer().try_into().expect("small") };
     let segments = match partitioning {
         Partitioning::Integer | Partitioning::Pow2 => count(clamped.ceil()),
         _ => {
@@ -41,7 +41,7 @@ fn points(partitioning: Partitioning, value: Option<BigRational>, least: &BigRat
             }
         }
     };
-    usize::try_from(segments + 1).unwrap()
+    usize::try_from(segments + 1).expect("positive")
 }
 
 /// Points of all edges and of the inner partitions; `None`: culled.
