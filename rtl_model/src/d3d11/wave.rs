@@ -122,9 +122,9 @@ mod tests {
     fn a_small_cache_shades_again_and_none_shades_every_corner() {
         let triangles = row(8);
         assert_eq!(walked(Some(0), 64, &triangles).0, 3 * 16);
-        assert_eq!(walked(Some(1), 64, &triangles).0, 3 * 16);
-        // Two entries: of 1 4 3 after 0 2 1 only .. worked by hand for two quads:
-        // 0! 2! 1! | 1 2 3! | 2! 4! 3! | 3 4 5!
+        // One entry: of two triangles the second begins where the first ended.
+        assert_eq!(walked(Some(1), 64, &triangles).0, 5 * 8);
+        // Two, by hand for two quads: 0! 2! 1! | 1 2 3! | 2! 4! 3! | 3 4 5!
         assert_eq!(walked(Some(2), 64, &row(2)).0, 8);
         assert_eq!(walked(Some(4), 64, &triangles).0, 18);
         for entries in [0, 1, 2, 3, 4, 9] {
