@@ -85,3 +85,44 @@ pub(super) fn walk(inner: usize, outer: usize) -> Walk {
     let count = after + half;
     Walk { steps, count, outer_middle: (outer_middle == 1).then_some(half + inner_middle) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The order by its definition: the corner, 1/2, 1/4 and 3/4, the odd eighths, and so on; what
+    /// is left over stands last, next to the corner.
+    #[test]
+    fn the_ruler_halves_what_is_longest_from_the_corner_on() {
+        let mut order: Vec<usize> = (1..32).collect();
+        // Place of point n in 64ths: the odd multiples of 32, 16, 8, 4 and 2.
+        order.sort_by_key(|&n| {
+            let row = 1 << n.ilog2();
+            (2 * (n - row) + 1) * 32 / row
+        });
+        let want = [vec![0, 32], order].concat();
+        assert_eq!(RULER.map(usize::from).to_vec(), want);
+    }
+
+    #[test]
+    fn walks_have_a_step_for_each_segment_and_are_symmetric() {
+        let mut compared = 0;
+        for inner in 2..=64 {
+            for outer in 1..=64 {
+                let Walk { steps, count, outer_middle } = walk(inner, outer);
+                assert_eq!(count, inner - 2 + outer);
+                assert_eq!(steps.count_ones() as usize, inner - 2, "{inner} {outer}");
+                let reversed = steps.reverse_bits() >> (128 - count);
+                // But for the two triangles across the middle, where there are two.
+                let middle =
+                    if inner % 2 == 1 && outer % 2 == 1 { 0b11 << (count / 2 - 1) } else { 0 };
+                assert_eq!(steps ^ reversed, middle, "{inner} {outer}");
+                if let Some(k) = outer_middle {
+                    assert!(outer % 2 == 1 && steps >> k & 1 == 0);
+                }
+                compared += 1;
+            }
+        }
+        assert_eq!(compared, 63 * 64);
+    }
+}
