@@ -29,6 +29,17 @@ macro_rules! chain_of {
             $($kind(Of<$kind, $lists>),)*
         }
 
+        impl<$($bounds)*> $name<$($arguments)*> {
+            /// What every chain begins with: link and memory.
+            fn begin(block: Name, config: &Config) -> Self {
+                match block {
+                    Name::Link => Self::Link(Of::new(Link::new(config))),
+                    Name::Memory => Self::Memory(Of::new(Memory::new(config))),
+                    _ => unreachable!("{block:?} has no costs"),
+                }
+            }
+        }
+
         impl<$($bounds)*> Block for $name<$($arguments)*> {
             type Token = Token<$lists>;
 
@@ -60,6 +71,8 @@ macro_rules! chain_of {
 
 use chain_of;
 use d3d11::Wave;
+
+pub(super) use d3d11::Pattern;
 
 /// Levels of a patch: four edges and two interior directions.
 const LEVELS: u16 = 6;

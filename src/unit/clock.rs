@@ -1,8 +1,7 @@
 //! The clock of a run: what the host sends goes in, in the order of the trace; the engine that the
 //! configuration names times it.
 
-use super::chain::{self, Flow, Token, Work};
-use super::d3d11::Pattern;
+use super::chain::{self, Flow, Pattern, Token, Work};
 use crate::config::{Config, Engine, TransferMode};
 use crate::link::Transfer;
 use crate::link::framing::Pieces;

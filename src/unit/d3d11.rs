@@ -15,6 +15,7 @@
 
 mod shape;
 
+use super::chain::Pattern;
 use super::frame::FrameState;
 use super::pipeline::{Input, Make, Placed, Placing};
 use crate::config::{Config, FactorPolicy, Partitioning};
@@ -29,21 +30,6 @@ use shape::Shape;
 
 /// Bytes that a hull shader hands on for a patch: 16 vec4 and six factors.
 const HULL_BYTES: u64 = 16 * 16 + 6 * 4;
-
-/// What the triangles of a patch depend on, and what moves for it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Pattern {
-    pub(super) factors: Factors,
-    /// Bytes that the hull shader hands on.
-    pub(super) hull_bytes: u32,
-}
-
-impl Pattern {
-    /// Bytes of the bursts that they take in memory.
-    pub(super) fn moved(&self, burst: u32) -> u64 {
-        u64::from(self.hull_bytes).next_multiple_of(burst.into())
-    }
-}
 
 /// Bytes that the hull shader hands on for a patch whose vertices have attributes of so many
 /// components: those of four corners too.
@@ -238,7 +224,5 @@ mod tests {
     fn a_patch_is_handed_on_in_280_bytes_and_its_corners_attributes() {
         let config = Config::default(); // components of 32 bits
         assert_eq!([0, 1, 6].map(|n| hull_bytes(n, &config)), [280, 296, 376]);
-        let pattern = Pattern { hull_bytes: 280, ..Pattern::default() };
-        assert_eq!([8, 32, 4096].map(|burst| pattern.moved(burst)), [280, 288, 4096]);
     }
 }

@@ -8,7 +8,6 @@
 use super::block::{Assemble, Channel, Link, Memory, Of, Steady, Step, misled, one};
 use super::{Fate, Flow, Token, chain_of};
 use crate::config::Config;
-use crate::unit::d3d11::Pattern;
 use rtl_model::counter::Block as Name;
 use rtl_model::d3d11::wave::Waves;
 use rtl_model::d3d11::{Factors as Processed, Output, Tessellator};
@@ -18,6 +17,21 @@ use rtl_model::time::{Block, Cost, Emit, Visitor};
 const THREADS: u16 = 16 + 1;
 /// Tessellation factors of a quad.
 const FACTORS: u16 = 6;
+
+/// What the triangles of a patch depend on, and what moves for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::unit) struct Pattern {
+    pub(in crate::unit) factors: Processed,
+    /// Bytes that the hull shader hands on.
+    pub(in crate::unit) hull_bytes: u32,
+}
+
+impl Pattern {
+    /// Bytes of the bursts that they take in memory.
+    pub(in crate::unit) fn moved(&self, burst: u32) -> u64 {
+        u64::from(self.hull_bytes).next_multiple_of(burst.into())
+    }
+}
 
 /// Points that are shaded side by side, and what comes of them.
 #[derive(Clone, Copy, Debug)]
@@ -38,13 +52,7 @@ impl Flow for Pattern {
     type Stage = Stage;
 
     fn stage(block: Name, config: &Config) -> Stage {
-        let Some(costs) = config.costs(block) else {
-            return if block == Name::Link {
-                Stage::Link(Of::new(Link::new(config)))
-            } else {
-                Stage::Memory(Of::new(Memory::new(config)))
-            };
-        };
+        let Some(costs) = config.costs(block) else { return Stage::begin(block, config) };
         let steady = Steady::of(&costs);
         let channel = config.hull.to_memory.then(|| Channel::new(config));
         let burst = config.memory.burst;
@@ -197,5 +205,16 @@ impl Step<Pattern> for EmitWaves {
     fn accept(&mut self, token: &Token<Pattern>, out: &mut impl Emit<Token<Pattern>>) -> Cost {
         let Token::Wave(wave) = token else { misled(token) };
         one(token, self.0.cost(wave.points.max(wave.triangles)), out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_hull_shader_hands_on_moves_in_whole_bursts() {
+        let pattern = Pattern { hull_bytes: 280, ..Pattern::default() };
+        assert_eq!([8, 32, 4096].map(|burst| pattern.moved(burst)), [280, 288, 4096]);
     }
 }

@@ -22,13 +22,7 @@ impl<T: Topology + 'static> Flow for T {
     type Stage = Stage<T>;
 
     fn stage(block: Name, config: &Config) -> Stage<T> {
-        let Some(costs) = config.costs(block) else {
-            return if block == Name::Link {
-                Stage::Link(Of::new(Link::new(config)))
-            } else {
-                Stage::Memory(Of::new(Memory::new(config)))
-            };
-        };
+        let Some(costs) = config.costs(block) else { return Stage::begin(block, config) };
         let steady = Steady::of(&costs);
         let (interval, latency) = (costs.interval, costs.latency);
         match block {

@@ -1,9 +1,10 @@
 //! Shape: processed factors and a patch in; its vertices and triangles out, and what the
 //! tessellator, the cache of shaded points and the domain shader did for them.
 
-use super::{Pattern, count_bursts};
+use super::count_bursts;
 use crate::config::{Arithmetic, Config, DomainKind, Normals};
 use crate::shader::domain::{Evaluator, Fixed, Orientations, Settings, Single};
+use crate::unit::chain::Pattern;
 use crate::unit::frame::FrameState;
 use crate::unit::pipeline::Input;
 use rtl_model::counter::{Block, Counter, Counters};
