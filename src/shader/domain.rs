@@ -63,8 +63,8 @@ pub trait Evaluator {
     fn visit(
         &self,
         net: &Net<Self::Value>,
-        sites: impl IntoIterator<Item = [u32; 2]>,
-        put: impl FnMut([Self::Coordinate; 4], u32),
+        sites: &[[u32; 2]],
+        put: &mut dyn FnMut([Self::Coordinate; 4], u32),
     );
 
     /// The point at one site and how many of its coordinates, 0..=4, did not fit.
@@ -73,7 +73,7 @@ pub trait Evaluator {
     /// When a parameter exceeds 1.
     fn point(&self, net: &Net<Self::Value>, site: [u32; 2]) -> ([Self::Coordinate; 4], u32) {
         let mut point = None;
-        self.visit(net, [site], |p, overflows| point = Some((p, overflows)));
+        self.visit(net, &[site], &mut |p, overflows| point = Some((p, overflows)));
         point.expect("one site has one point")
     }
 }
@@ -100,13 +100,7 @@ impl Evaluator for Single {
         net(Singles, self.form, points.map(Vec4::from_array))
     }
 
-    #[inline]
-    fn visit(
-        &self,
-        net: &Net<Vec4>,
-        sites: impl IntoIterator<Item = [u32; 2]>,
-        mut put: impl FnMut([f32; 4], u32),
-    ) {
+    fn visit(&self, net: &Net<Vec4>, sites: &[[u32; 2]], put: &mut dyn FnMut([f32; 4], u32)) {
         // A sum of zeros is -0 where all of them are, interior points' products included; + 0 makes
         // one zero of both, which is the same point.
         visit(Singles, self.form, net, sites, |p| put((p + Vec4::ZERO).to_array(), 0));
@@ -170,27 +164,22 @@ impl Evaluator for Fixed {
         net(Integers::<rtl_model::number::Floor, false>::new(self.bits), self.form, *points)
     }
 
-    #[inline]
-    fn visit(
-        &self,
-        net: &Net<Point>,
-        sites: impl IntoIterator<Item = [u32; 2]>,
-        put: impl FnMut(Point, u32),
-    ) {
+    fn visit(&self, net: &Net<Point>, sites: &[[u32; 2]], put: &mut dyn FnMut(Point, u32)) {
         let Settings { rounding, overflow, .. } = self.settings;
         dispatch(rounding, overflow, Visit { fixed: *self, net, sites, put });
     }
 }
 
-/// A visit that wants its modes as types.
-struct Visit<'a, I, F> {
+/// A visit that wants its modes as types. Where its points go is none: the code of each mode is
+/// long, and once is enough.
+struct Visit<'a> {
     fixed: Fixed,
     net: &'a Net<Point>,
-    sites: I,
-    put: F,
+    sites: &'a [[u32; 2]],
+    put: &'a mut dyn FnMut(Point, u32),
 }
 
-impl<I: IntoIterator<Item = [u32; 2]>, F: FnMut(Point, u32)> Modal for Visit<'_, I, F> {
+impl Modal for Visit<'_> {
     type Output = ();
 
     fn run<R: RoundingMode, O: OverflowMode>(self) {
@@ -198,9 +187,9 @@ impl<I: IntoIterator<Item = [u32; 2]>, F: FnMut(Point, u32)> Modal for Visit<'_,
     }
 }
 
-impl<I: IntoIterator<Item = [u32; 2]>, F: FnMut(Point, u32)> Visit<'_, I, F> {
+impl Visit<'_> {
     fn go<R: RoundingMode, O: OverflowMode, const WIDE: bool>(self) {
-        let Self { fixed, net, sites, mut put } = self;
+        let Self { fixed, net, sites, put } = self;
         let position = fixed.settings.position;
         visit(Integers::<R, WIDE>::new(fixed.bits), fixed.form, net, sites, |p| {
             let fitted = p.map(|c| position.fit::<O>(c));
@@ -245,15 +234,14 @@ fn visit<D: Datapath>(
     d: D,
     form: Form,
     net: &Net<D::Value>,
-    sites: impl IntoIterator<Item = [u32; 2]>,
+    sites: &[[u32; 2]],
     mut put: impl FnMut(D::Value),
 ) {
-    let mut sites = sites.into_iter().peekable();
-    let Some(&[u, v]) = sites.peek() else { return };
+    let Some(&[u, v]) = sites.first() else { return };
     assert!(u <= ONE && v <= ONE, "a parameter of {} / 65536 is above 1", u.max(v));
     let rows = form::rows(d, form, &net.0, &form::basis(d, form, u));
     let mut memo = Memo { u, rows, v, basis: form::basis(d, form, v) };
-    for site in sites {
+    for &site in sites {
         put(memo.point(d, form, net, site));
     }
 }

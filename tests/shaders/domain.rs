@@ -308,7 +308,7 @@ fn a_visit_gives_what_single_points_give() {
                 })
                 .collect();
             let mut visited = Vec::new();
-            single.visit(&net, sites.iter().copied(), |p, over| visited.push((p, over)));
+            single.visit(&net, &sites, &mut |p, over| visited.push((p, over)));
             let alone: Vec<_> = sites.iter().map(|&at| single.point(&net, at)).collect();
             assert_eq!(visited, alone);
             compared += visited.len();

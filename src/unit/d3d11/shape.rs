@@ -123,7 +123,7 @@ impl Shape {
             Evaluate::Fixed(fixed) => {
                 let net = fixed.net(&input.patch.points);
                 let mut rest = sites.iter();
-                fixed.visit(&net, sites.iter().copied(), |position, over| {
+                fixed.visit(&net, sites, &mut |position, over| {
                     let &[u, v] = rest.next().expect("a point a site");
                     vertices.push(Vertex { position, u, v });
                     overflows += u64::from(over);
@@ -207,7 +207,7 @@ impl Modal for Singles<'_> {
         let Self { single, net, sites, format, vertices } = self;
         let mut overflows = 0;
         let mut rest = sites.iter();
-        single.visit(net, sites.iter().copied(), |point, _| {
+        single.visit(net, sites, &mut |point, _| {
             let &[u, v] = rest.next().expect("a point a site");
             let quantised = port::accept::<R, O>(point.map(f32::to_bits), format);
             let position: Point = quantised.point;
