@@ -326,7 +326,7 @@ mod tests {
             assert_eq!(Link { latency: 7, outstanding: 1, ..link }.bus(), Some(bus));
             assert_eq!(Link { header: link.header + 1, ..link }.bus(), None);
             let covered = u64::from(link.outstanding) * u64::from(link.request) * 1000 / 500;
-            assert_eq!(covered < link.bandwidth_mb_s.into(), bus.name() == "pcie6x16");
+            assert_eq!(covered < u64::from(link.bandwidth_mb_s), bus.name() == "pcie6x16");
         }
     }
 }

@@ -38,7 +38,7 @@ fn block(rows: &HashMap<String, u64>, stage: &Stage, of_run: bool) {
         assert!(get("cycles.used") <= busy + blocked, "{name}");
     }
     if let Some(peak) = rows.get(&format!("{name}.fifo.peak")) {
-        assert!(*peak <= stage.shape.depth.into(), "{name}");
+        assert!(*peak <= u64::from(stage.shape.depth), "{name}");
         assert!(*peak > 0 || get("tokens.in") == 0, "{name}: what passes a FIFO was in it");
     }
 }
