@@ -149,7 +149,7 @@ pub(super) const SHAPE_WORDS: usize = 3;
 /// Why there is none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
-    /// Which word of a line, from 0: the one that is wrong, or the place of the one that is missing.
+    /// Which word of a line, from 0: the wrong one, or the place of the one that is missing.
     pub(super) word: usize,
     pub(super) message: String,
 }
