@@ -54,9 +54,9 @@ fn pattern(ledger: &mut Ledger, factors: &Factors, want: &golden::d3d11::Pattern
         counts(want.sites.len(), indices),
     );
     for (point, site) in tessellator.points().iter().zip(&want.sites) {
-        for axis in 0..2 {
-            let error = (f64::from(point[axis]) - site.at[axis] * 65536.0).abs();
-            let at = At { steps: [site.steps[axis], 0], ..At::default() };
+        for ((&got, want), steps) in point.iter().zip(site.at).zip(site.steps) {
+            let error = (f64::from(got) - want * 65536.0).abs();
+            let at = At { steps: [steps, 0], ..At::default() };
             let quantity = if site.set_off { Q::D3d11SetOff } else { Q::D3d11Parameter };
             ledger.error(quantity, &at, error);
         }

@@ -150,7 +150,8 @@ impl List {
         // From the centre outwards, so that what is too many lies outside: number q of a half is
         // point p = points - 1 - q, and after the split where q is below this.
         let split = points as i32 - 1 - split;
-        let last = (1_u32 << 15).wrapping_add((points as u32 - 1).wrapping_mul(step)); // half an ulp
+        // With half an ulp, for the rounding.
+        let last = (1_u32 << 15).wrapping_add((points as u32 - 1).wrapping_mul(step));
         let mut at = [last, last.wrapping_sub(step), 0, 0];
         [at[2], at[3]] = [at[0].wrapping_sub(step << 1), at[1].wrapping_sub(step << 1)];
         // The point after the split is the same one of the floor partition as the one that splits.

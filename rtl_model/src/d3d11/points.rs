@@ -102,8 +102,8 @@ impl Lists {
     }
 }
 
-/// With which sign t goes into u and v, of two points: not kept, flipped (all bits: the 1 that makes
-/// it -t is in the base) or as it is.
+/// With which sign t goes into u and v, of two points: not kept, flipped (all bits: the 1 that
+/// makes it -t is in the base) or as it is.
 struct Sign {
     keep: [u32; 4],
     flip: [u32; 4],

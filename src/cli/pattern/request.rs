@@ -149,7 +149,7 @@ pub(super) const SHAPE_WORDS: usize = 3;
 /// Why there is none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
-    /// Which word of a line, from 0: the one that is wrong, or the place of the one that is missing.
+    /// Which word of a line, from 0: the wrong one, or the place of the one that is missing.
     pub(super) word: usize,
     pub(super) message: String,
 }
@@ -202,8 +202,8 @@ fn fractional(domain: Domain, partitioning: Partitioning) -> Result<(), Fault> {
     let message = format!(
         "found domain {} with partitioning {}, expected what unit hybrid takes: domain quad with \
          partitioning fractional",
-        name(domain),
-        name(partitioning)
+        name(&domain),
+        name(&partitioning)
     );
     Err(Fault { word: 0, message })
 }
@@ -217,14 +217,14 @@ fn fixed_function(
     if partitioning.d3d11().is_none() {
         let message = format!(
             "found partitioning {}, expected what unit d3d11 takes: integer, pow2, odd or even",
-            name(partitioning)
+            name(&partitioning)
         );
         return Err(Fault { word: 1, message });
     }
     if domain == Domain::Isoline && matches!(topology, Topology::Cw | Topology::Ccw) {
         let message = format!(
             "found topology {}, expected what domain isoline has: point or line",
-            name(topology)
+            name(&topology)
         );
         return Err(Fault { word: 2, message });
     }
@@ -232,7 +232,7 @@ fn fixed_function(
 }
 
 /// A value's name on the command line.
-fn name(value: impl ValueEnum) -> String {
+fn name(value: &impl ValueEnum) -> String {
     value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
 

@@ -38,7 +38,7 @@ pub(super) fn triangles(counts: &[Vec<usize>], inner: &[usize], least: bool) -> 
         })
         .collect();
     for (ring, pair) in rows.windows(2).enumerate() {
-        for (outer, within) in pair[0].iter().zip(&pair[1]).take(sides) {
+        for (outer, within) in pair[0].iter().zip(&pair[1]) {
             let segments = [outer.len() - 1, within.len() - 1];
             let order = if ring == 0 { transition(segments) } else { strip(segments) };
             made.extend(walk(order, outer, within));
