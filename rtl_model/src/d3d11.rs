@@ -23,6 +23,7 @@
 //! two counts alone decide how two rows are joined (`walk`); so neighbours that give an edge the
 //! same factor agree about it, whatever else they have.
 
+mod connect;
 mod factor;
 mod group;
 mod inside;
@@ -125,7 +126,7 @@ impl Tessellator {
         // processor finish writing.
         self.lists.set(factors);
         let indices = &mut self.indices[..self.index_count + stitch::SLACK];
-        stitch::write(factors, output, indices);
+        connect::write(factors, output, indices);
         self.lists.write(factors, &mut self.points[..self.point_count + points::SLACK]);
     }
 

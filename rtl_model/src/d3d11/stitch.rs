@@ -1,8 +1,8 @@
-//! Stitch: the counts of a pattern's factors in, its indices out.
+//! Stitch: the segments of a ring's sides in, the numbers of the triangles between it and the ring
+//! inside it out, side by side in the order of the points.
 //!
-//! Ring by ring from the outside, side by side in the order of the points. The outermost strip is
-//! a transition between each edge and the inner partition (`walk`); further in,
-//! each side of a ring has two segments more than the one inside it, and diagonals that lean
+//! The outermost strip is a transition between each edge and the inner partition (`walk`); further
+//! in, each side of a ring has two segments more than the one inside it, and diagonals that lean
 //! towards the middle:
 //!
 //! ```text
@@ -16,13 +16,11 @@
 //! the last side's last point is the ring's first one. An even axis ends in a point or a line whose
 //! far side is walked backwards; an odd one in a triangle (tri) or a strip (quad).
 //!
-//! Triangles are written by the handful (`group`), and small rings with all that is inside them at
-//! once (`inside`): what is written too many is overwritten by what follows.
+//! Triangles are written by the handful (`group`): what is written too many is overwritten by what
+//! follows.
 
 use super::group::{GROUPS, Group, Next, PAIRS, STEPS};
-use super::inside::{self, BLOCK as INSIDE_BLOCK, Insides};
 use super::walk::{self, Walk};
-use super::{Domain, Factors, Output};
 
 /// Indices after the last one that may be written: their values mean nothing.
 pub(super) const SLACK: usize = 128;
@@ -36,33 +34,6 @@ const ROOM: &str = "there are more places than numbers";
 
 /// Marks the numbers of the inner row while a ring is closed: 4225 points leave bit 15 free.
 const INNER: u16 = 1 << 15;
-
-/// Writes the indices of the pattern to `out`, which has [`SLACK`] places more than indices.
-///
-/// # Panics
-/// Where triangles are asked of an isoline domain.
-pub(super) fn write(factors: &Factors, output: Output, out: &mut [u16]) {
-    let count = out.len() - SLACK;
-    match output {
-        Output::Point => (0..).zip(&mut out[..count]).for_each(|(k, out)| *out = k),
-        Output::Line if factors.domain() == Domain::Isoline => lines(factors, &mut out[..count]),
-        Output::Line => {
-            let (pairs, _) = out[..count].as_chunks_mut();
-            (0..).zip(pairs).for_each(|(k, pair)| *pair = [k, k + 1]);
-        }
-        Output::Cw => Stitch::<true> { out, at: 0 }.pattern(factors),
-        Output::Ccw => Stitch::<false> { out, at: 0 }.pattern(factors),
-    }
-}
-
-fn lines(factors: &Factors, out: &mut [u16]) {
-    let points = factors.edge_points(1);
-    let lines = out.chunks_exact_mut(2 * (points - 1));
-    for (first, line) in (0..).step_by(points).zip(lines) {
-        let (pairs, _) = line.as_chunks_mut();
-        (first..).zip(pairs).for_each(|(k, pair)| *pair = [k, k + 1]);
-    }
-}
 
 /// From a row's point to its next one: 1, or -1.
 const UP: u16 = 1;
@@ -134,44 +105,6 @@ impl<const SIDES: usize> Ring<SIDES> {
 }
 
 impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
-    fn pattern(&mut self, factors: &Factors) {
-        let segments = |edge: usize| factors.edge_points(edge) - 1;
-        match (factors.domain(), factors.least()) {
-            (Domain::Isoline, _) => panic!("an isoline domain has no triangles"),
-            (Domain::Tri, true) => self.put([0, 2, 1]),
-            (Domain::Quad, true) => {
-                self.put([0, 3, 1]);
-                self.put([1, 3, 2]);
-            }
-            (Domain::Tri, false) => {
-                let inner = factors.inner_points(0) - 1;
-                let edges = Ring { first: 0, segments: [0, 1, 2].map(segments) };
-                let ring = self.transitions(&edges, [inner; 3]);
-                self.inside(ring, &inside::TRIS[usize::from(CLOCKWISE)]);
-            }
-            (Domain::Quad, false) => {
-                let [u, v] = [0, 1].map(|axis| factors.inner_points(axis) - 1);
-                let edges = Ring { first: 0, segments: [0, 1, 2, 3].map(segments) };
-                let ring = self.transitions(&edges, [v, u, v, u]);
-                self.inside(ring, &inside::QUADS[usize::from(CLOCKWISE)]);
-            }
-        }
-    }
-
-    /// Everything inside a ring: strip by strip as long as it is in no table.
-    #[inline(always)]
-    fn inside<const SIDES: usize>(&mut self, mut ring: Ring<SIDES>, insides: &Insides) {
-        loop {
-            if let Some((numbers, count)) = insides.find(&ring) {
-                return self.copy(numbers, count, ring.first as u16);
-            }
-            match self.ring(ring) {
-                Some(inside) => ring = inside,
-                None => return,
-            }
-        }
-    }
-
     /// Everything inside a ring, with no table.
     pub(super) fn inside_by_strips<const SIDES: usize>(&mut self, ring: Ring<SIDES>) {
         let mut left = Some(ring);
@@ -182,7 +115,7 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
 
     /// The strips of a ring; the ring inside it. Where there is none, what there is instead.
     #[inline(always)]
-    fn ring<const SIDES: usize>(&mut self, ring: Ring<SIDES>) -> Option<Ring<SIDES>> {
+    pub(super) fn ring<const SIDES: usize>(&mut self, ring: Ring<SIDES>) -> Option<Ring<SIDES>> {
         if ring.is_line() {
             return None;
         }
@@ -199,22 +132,10 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
         Some(inside)
     }
 
-    /// Copies numbers that count from `first`.
-    #[inline(always)]
-    fn copy(&mut self, numbers: &[u16], count: usize, first: u16) {
-        let (blocks, _) = numbers.as_chunks::<INSIDE_BLOCK>();
-        let (out, _) = self.out[self.at..].as_chunks_mut::<INSIDE_BLOCK>();
-        for (out, &block) in out.iter_mut().zip(blocks).take(count.div_ceil(INSIDE_BLOCK)) {
-            // All are read before any is written, so that they can be added as vectors.
-            *out = block.map(|number| number.wrapping_add(first));
-        }
-        self.at += count;
-    }
-
     /// The strips between the edges and the ring inside, which it returns; `inner` are the segments
     /// of the inner partition along each side.
     #[inline(always)]
-    fn transitions<const SIDES: usize>(
+    pub(super) fn transitions<const SIDES: usize>(
         &mut self,
         edges: &Ring<SIDES>,
         inner: [usize; SIDES],
@@ -387,7 +308,7 @@ impl<const CLOCKWISE: bool> Stitch<'_, CLOCKWISE> {
     }
 
     #[inline(always)]
-    fn put(&mut self, triangle: [u16; 3]) {
+    pub(super) fn put(&mut self, triangle: [u16; 3]) {
         *self.next() = turned::<CLOCKWISE>(triangle);
         self.at += 3;
     }
