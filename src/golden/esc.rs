@@ -153,7 +153,6 @@ impl Coarse {
         let mut out: Vec<usize> = Vec::new();
         for vertex in list {
             if let [.., i, j] = out[..]
-                && row(i) != row(j)
                 && row(j) == row(vertex)
             {
                 out.push(i);

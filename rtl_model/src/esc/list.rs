@@ -58,7 +58,7 @@ impl Iterator for List {
                 let site = self.fresh()?;
                 match self.last {
                     // Rule 4: v_i v_j v_k, the last two of one row, becomes v_i v_j v_i v_k.
-                    [Some(i), Some(j)] if i.row != j.row && j.row == site.row => {
+                    [Some(i), Some(j)] if j.row == site.row => {
                         self.held = Some(site);
                         i
                     }
