@@ -1,88 +1,49 @@
-//! Many requests: lines in, lines out, in order and as they come, whatever the length of the file.
+//! Lines of factors: the words of a line in, a request out, or what is wrong with it and where.
 
-use super::super::print;
+use super::lines::{self, Line, found};
 use super::request::{Fault, Request};
 use super::shape;
 use clap::ValueEnum;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::Write;
 use std::path::Path;
-use tessim::error::{Error, Place, Result};
-
-/// Six factors of any reasonable number of digits fit many times over.
-const LINE_BYTES_MAX: u64 = 4096;
+use tessim::error::Result;
 
 /// Answers every line of the file at `path`, or of standard input for `-`.
 pub(super) fn run(path: &Path, out: &mut impl Write) -> Result<()> {
-    if path == Path::new("-") {
-        return answer(io::stdin().lock(), path, out);
-    }
-    let file = File::open(path).map_err(|error| Error::system(path, error))?;
-    answer(BufReader::new(file), path, out)
+    lines::run(path, out, request, |request, out| shape::write(request, out))
 }
 
-fn answer(mut input: impl BufRead, path: &Path, out: &mut impl Write) -> Result<()> {
-    let mut line = Vec::new();
-    for number in 1.. {
-        line.clear();
-        let read = input.by_ref().take(LINE_BYTES_MAX + 1).read_until(b'\n', &mut line);
-        if read.map_err(|error| Error::system(path, error))? == 0 {
-            break;
-        }
-        let request = request(&line).map_err(|(column, message)| {
-            // What was answered is answered: the error comes after it.
-            let _ = out.flush();
-            let place = Place::Line { line: number, column };
-            Error::Input { file: path.display().to_string(), place, message }
-        })?;
-        shape::write(&request, out).map_err(print::error)?;
-    }
-    Ok(())
-}
-
-/// The request on a line, or the column (from 1) of what is wrong with it and why.
-fn request(line: &[u8]) -> Result<Request, (usize, String)> {
-    if line.len() as u64 > LINE_BYTES_MAX {
-        let message = format!("found a line of more than {LINE_BYTES_MAX} bytes, expected less");
-        return Err((1, message));
-    }
-    let line = std::str::from_utf8(line)
-        .map_err(|error| (error.valid_up_to() + 1, "expected UTF-8".to_owned()))?;
-    let line = line.trim_end();
-    // A word's place is its distance from the line's start, both being in the same text.
-    let column = |word: &str| word.as_ptr() as usize - line.as_ptr() as usize + 1;
-    let end = line.len() + 1;
-    let mut words = line.split_ascii_whitespace();
-    let first = words.clone().next().map_or(end, column);
-    let domain = choice(words.next(), "a domain", end, column)?;
-    let partitioning = choice(words.next(), "a partitioning", end, column)?;
-    let topology = choice(words.next(), "a topology", end, column)?;
-    let columns: Vec<usize> = words.clone().map(column).collect();
+/// The request on a line.
+fn request(line: Line<'_>) -> Result<Request, lines::Fault> {
+    let mut words = line.words();
+    let first = line.column(line.words().next());
+    let domain = choice(words.next(), "a domain", line)?;
+    let partitioning = choice(words.next(), "a partitioning", line)?;
+    let topology = choice(words.next(), "a topology", line)?;
+    let factors = words.clone();
     Request::new(domain, partitioning, topology, words).map_err(|Fault { factor, message }| {
-        let column = factor.map_or(first, |number| columns.get(number).copied().unwrap_or(end));
+        let column = factor.map_or(first, |number| line.column(factors.clone().nth(number)));
         (column, message)
     })
 }
 
-fn choice<T: ValueEnum>(
-    word: Option<&str>,
-    what: &str,
-    end: usize,
-    column: impl Fn(&str) -> usize,
-) -> Result<T, (usize, String)> {
+fn choice<T: ValueEnum>(word: Option<&str>, what: &str, line: Line<'_>) -> Result<T, lines::Fault> {
     if let Some(value) = word.and_then(|word| T::from_str(word, false).ok()) {
         return Ok(value);
     }
     let names = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
     let names: Vec<String> = names.map(|value| value.get_name().to_owned()).collect();
-    let found = word.map_or_else(|| "nothing".to_owned(), |word| format!("{word:?}"));
-    let message = format!("found {found}, expected {what}: {}", names.join(", "));
-    Err((word.map_or(end, column), message))
+    let message = format!("found {}, expected {what}: {}", found(word), names.join(", "));
+    Err((line.column(word), message))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn answer(input: &[u8], path: &Path, out: &mut Vec<u8>) -> Result<()> {
+        lines::answer(input, path, out, request, |request, out| shape::write(request, out))
+    }
 
     fn message(text: &[u8]) -> String {
         answer(text, Path::new("b.txt"), &mut Vec::new()).expect_err("refused").to_string()

@@ -1,9 +1,13 @@
-//! `pattern`: tessellation factors in, the pattern of the domain out, one line of JSON each.
+//! `pattern`: tessellation factors in, the pattern of the domain out, one line of JSON each; for
+//! unit esc the inserted candidates of a coarse triangle's edges in, its triangles out.
 //!
 //! One pattern from flags, or many from a file, a line each, as they come. An input line means the
-//! same as the flags in their order: domain, partitioning, topology, factors.
+//! same as the flags in their order: domain, partitioning, topology, factors; or esc, level, left,
+//! right, bottom.
 
 mod batch;
+mod esc;
+mod lines;
 mod request;
 mod shape;
 
@@ -20,10 +24,18 @@ use tessim::error::{Error, Result};
 /// as f32 (nan, inf and -inf too), rounded to UQ8.16 (to nearest, ties to even) and clamped to
 /// 1..=128; nan counts as 1. Points are in U1.16. Indices are flat: 3 a triangle, 2 a line (each
 /// distinct edge once, in the order of first use: our choice), 1 a point.
+///
+/// Unit esc meshes a coarse triangle of level 1 to 15, which has level + 1 segments an edge: left
+/// and right run from the apex down, bottom from left to right. Bits say which of an edge's
+/// positions 1 to level are inserted; a row's inner vertices are where one of its ends is. Vertex
+/// i of row r has the number r(r+1)/2+i+1; triangles are counter-clockwise with the apex at the
+/// top.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  tessim pattern --topology ccw --factors 3.3,2.7,5.1,4.2,3,2\n  \
-                        echo 'quad fractional ccw 3.3 2.7 5.1 4.2' | tessim pattern --batch -"
+                        echo 'quad fractional ccw 3.3 2.7 5.1 4.2' | tessim pattern --batch -\n  \
+                        tessim pattern --unit esc --level 3 --left 101 --right 000\n  \
+                        echo 'esc 3 101 000 111' | tessim pattern --unit esc --batch -"
 )]
 pub(crate) struct Args {
     /// The unit whose pattern it is
@@ -40,24 +52,55 @@ pub(crate) struct Args {
     topology: Option<Topology>,
     /// The levels v0,u1,v1,u0[,InU,InV]
     #[arg(long, value_name = "A,B,...", allow_hyphen_values = true)]
-    #[arg(conflicts_with = "batch", required_unless_present = "batch")]
+    #[arg(conflicts_with = "batch")]
     factors: Option<String>,
-    /// A file of lines such as `quad fractional ccw 3.3 2.7 5.1 4.2 3 2`; - for standard input
+    #[command(flatten)]
+    coarse: esc::Args,
+    /// A file of lines such as `quad fractional ccw 3.3 2.7 5.1 4.2 3 2`, or for unit esc
+    /// `esc 3 101 000 111`; - for standard input
     #[arg(long, value_name = "FILE")]
     batch: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Unit {
     Hybrid,
     Moreton,
+    Esc,
+}
+
+impl Args {
+    /// Refuses flags that say nothing to the unit.
+    fn check(&self) -> Result<()> {
+        let Self { domain, partitioning, topology, factors, .. } = self;
+        let factors = [
+            ("--domain", domain.is_some()),
+            ("--partitioning", partitioning.is_some()),
+            ("--topology", topology.is_some()),
+            ("--factors", factors.is_some()),
+        ];
+        let (flags, expected) = match self.unit {
+            Unit::Esc => (&factors[..], "--level, --left, --right and --bottom, or --batch"),
+            _ => (&self.coarse.given()[..], "--factors or --batch"),
+        };
+        match flags.iter().find(|(_, given)| *given) {
+            Some((flag, _)) => {
+                Err(Error::Usage(format!("found {flag}, expected what the unit takes: {expected}")))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 pub(crate) fn run(args: &Args) -> Result<()> {
-    // Both have Moreton's pattern.
-    let (Unit::Hybrid | Unit::Moreton) = args.unit;
+    args.check()?;
     let mut out = std::io::BufWriter::new(print::stdout());
     match (&args.batch, &args.factors) {
+        (batch, _) if args.unit == Unit::Esc => match batch {
+            Some(path) => esc::batch(path, &mut out)?,
+            None => esc::one(&args.coarse, &mut out)?,
+        },
+        // Both others have Moreton's pattern.
         (Some(path), _) => batch::run(path, &mut out)?,
         (None, Some(factors)) => {
             let request = Request::new(
@@ -72,7 +115,9 @@ pub(crate) fn run(args: &Args) -> Result<()> {
             })?;
             shape::write(&request, &mut out).map_err(print::error)?;
         }
-        (None, None) => unreachable!("clap requires one of the two"),
+        (None, None) => {
+            return Err(Error::Usage("found nothing, expected --factors or --batch".to_owned()));
+        }
     }
     out.flush().map_err(print::error)
 }
