@@ -28,7 +28,7 @@ impl Coarse {
     /// # Panics
     /// Where edges have different numbers of candidates.
     #[must_use]
-    pub fn new(candidates: [Vec<bool>; 3]) -> Self {
+    pub fn new(candidates: &[Vec<bool>; 3]) -> Self {
         let level = candidates[0].len();
         assert!(candidates.iter().all(|edge| edge.len() == level), "one level");
         let mut numbers = 1..;
@@ -39,7 +39,7 @@ impl Coarse {
         let right: Vec<usize> = rows.iter().map(|row| row[row.len() - 1]).collect();
         let edges = [left, right, bottom];
         let mut inserted = vec![false; edges[2][level + 1] + 1];
-        for (edge, candidates) in edges.iter().zip(&candidates) {
+        for (edge, candidates) in edges.iter().zip(candidates) {
             inserted[edge[0]] = true;
             inserted[edge[level + 1]] = true;
             for (&vertex, _) in edge[1..].iter().zip(candidates).filter(|(_, there)| **there) {

@@ -34,7 +34,8 @@ pub(crate) fn random(ledger: &mut Ledger, random: &mut Random) {
 fn compare(ledger: &mut Ledger, level: u8, masks: [u16; 3]) {
     let [left, right, bottom] = masks;
     let got = Insertion::new(level, left, right, bottom);
-    let want = Coarse::new(masks.map(|mask| (1..=level).map(|p| mask >> p & 1 == 1).collect()));
+    let bits = |mask: u16| (1..=level).map(|p| mask >> p & 1 == 1).collect();
+    let want = Coarse::new(&masks.map(bits));
     let number = |site: Site| usize::from(site.number());
     let vertices: Vec<usize> = got.vertices().map(number).collect();
     ledger.equal(
