@@ -3,6 +3,9 @@
 
 #![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
 
+#[path = "cli/esc.rs"]
+mod esc;
+
 use assert_cmd::Command;
 use predicates::prelude::*;
 use std::fs;

@@ -5,6 +5,7 @@
 
 mod blocks;
 mod dyadic;
+mod insertions;
 mod ledger;
 mod levels;
 mod patterns;

@@ -3,6 +3,7 @@
 
 use super::blocks;
 use super::dyadic;
+use super::insertions;
 use super::ledger::Ledger;
 use super::levels;
 use super::patterns;
@@ -74,6 +75,10 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
     }
     for _ in 0..4_000 * scale {
         shaders::random(ledger, &mut random);
+    }
+    insertions::all(ledger);
+    for _ in 0..10_000 * scale {
+        insertions::random(ledger, &mut random);
     }
 }
 

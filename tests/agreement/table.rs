@@ -90,6 +90,9 @@ pub(crate) enum Quantity {
     DomainFixedPower,
     HullDecision,
     HullFactors,
+    EscVertices,
+    EscLists,
+    EscTriangles,
 }
 
 /// A row of the table.
@@ -338,4 +341,10 @@ pub(crate) const TABLE: &[Row] = &[
          f32 can be off by"),
     exact(Q::HullFactors, "hull", "factors of patches", 300,
         "counts, compared where no decision is within rounding"),
+    exact(Q::EscVertices, "esc", "numbers of vertices, and how many are on the edges", 10_000,
+        "decisions; closed formulas against what was inserted"),
+    exact(Q::EscLists, "esc", "strips as the paper lists them", 10_000,
+        "decisions"),
+    exact(Q::EscTriangles, "esc", "triangles in their order", 10_000,
+        "decisions"),
 ];

@@ -1,87 +1,51 @@
-//! Many requests: lines in, lines out, in order and as they come, whatever the length of the file.
+//! Lines of factors: the words of a line in, a request out, or what is wrong with it and where.
 
-use super::super::print;
+use super::lines::{self, Line, found};
 use super::request::{Fault, Request, Unit};
 use super::shape::Writer;
 use clap::ValueEnum;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::Write;
 use std::path::Path;
-use tessim::error::{Error, Place, Result};
-
-/// Six factors of any reasonable number of digits fit many times over.
-const LINE_BYTES_MAX: u64 = 4096;
+use tessim::error::Result;
 
 /// Answers every line of the file at `path`, or of standard input for `-`.
 pub(super) fn run(unit: Unit, path: &Path, out: &mut impl Write) -> Result<()> {
-    if path == Path::new("-") {
-        return answer(unit, io::stdin().lock(), path, out);
-    }
-    let file = File::open(path).map_err(|error| Error::system(path, error))?;
-    answer(unit, BufReader::new(file), path, out)
-}
-
-fn answer(unit: Unit, mut input: impl BufRead, path: &Path, out: &mut impl Write) -> Result<()> {
     let mut writer = Writer::default();
-    let mut line = Vec::new();
-    for number in 1.. {
-        line.clear();
-        let read = input.by_ref().take(LINE_BYTES_MAX + 1).read_until(b'\n', &mut line);
-        if read.map_err(|error| Error::system(path, error))? == 0 {
-            break;
-        }
-        let request = request(unit, &line).map_err(|(column, message)| {
-            // What was answered is answered: the error comes after it.
-            let _ = out.flush();
-            let place = Place::Line { line: number, column };
-            Error::Input { file: path.display().to_string(), place, message }
-        })?;
-        writer.write(&request, out).map_err(print::error)?;
-    }
-    Ok(())
+    lines::run(path, out, |line| request(unit, line), |request, out| writer.write(request, out))
 }
 
-/// The request on a line, or the column (from 1) of what is wrong with it and why.
-fn request(unit: Unit, line: &[u8]) -> Result<Request, (usize, String)> {
-    if line.len() as u64 > LINE_BYTES_MAX {
-        let message = format!("found a line of more than {LINE_BYTES_MAX} bytes, expected less");
-        return Err((1, message));
-    }
-    let line = std::str::from_utf8(line)
-        .map_err(|error| (error.valid_up_to() + 1, "expected UTF-8".to_owned()))?;
-    let line = line.trim_end();
-    // A word's place is its distance from the line's start, both being in the same text.
-    let column = |word: &str| word.as_ptr() as usize - line.as_ptr() as usize + 1;
-    let end = line.len() + 1;
-    let mut words = line.split_ascii_whitespace();
-    let columns: Vec<usize> = words.clone().map(column).collect();
-    let domain = choice(words.next(), "a domain", end, column)?;
-    let partitioning = choice(words.next(), "a partitioning", end, column)?;
-    let topology = choice(words.next(), "a topology", end, column)?;
+/// The request on a line.
+fn request(unit: Unit, line: Line<'_>) -> Result<Request, lines::Fault> {
+    let columns: Vec<usize> = line.words().map(|word| line.column(Some(word))).collect();
+    let mut words = line.words();
+    let domain = choice(words.next(), "a domain", line)?;
+    let partitioning = choice(words.next(), "a partitioning", line)?;
+    let topology = choice(words.next(), "a topology", line)?;
     let shape = (domain, partitioning, topology);
-    Request::new(unit, shape, words)
-        .map_err(|Fault { word, message }| (columns.get(word).copied().unwrap_or(end), message))
+    Request::new(unit, shape, words).map_err(|Fault { word, message }| {
+        (columns.get(word).copied().unwrap_or_else(|| line.column(None)), message)
+    })
 }
 
-fn choice<T: ValueEnum>(
-    word: Option<&str>,
-    what: &str,
-    end: usize,
-    column: impl Fn(&str) -> usize,
-) -> Result<T, (usize, String)> {
+fn choice<T: ValueEnum>(word: Option<&str>, what: &str, line: Line<'_>) -> Result<T, lines::Fault> {
     if let Some(value) = word.and_then(|word| T::from_str(word, false).ok()) {
         return Ok(value);
     }
     let names = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
     let names: Vec<String> = names.map(|value| value.get_name().to_owned()).collect();
-    let found = word.map_or_else(|| "nothing".to_owned(), |word| format!("{word:?}"));
-    let message = format!("found {found}, expected {what}: {}", names.join(", "));
-    Err((word.map_or(end, column), message))
+    let message = format!("found {}, expected {what}: {}", found(word), names.join(", "));
+    Err((line.column(word), message))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn answer(unit: Unit, input: &[u8], path: &Path, out: &mut Vec<u8>) -> Result<()> {
+        let mut writer = Writer::default();
+        let write = |request: &Request, out: &mut Vec<u8>| writer.write(request, out);
+        lines::answer(input, path, out, |line| request(unit, line), write)
+    }
 
     fn message(text: &[u8]) -> String {
         answer(Unit::Hybrid, text, Path::new("b.txt"), &mut Vec::new())

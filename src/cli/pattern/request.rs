@@ -5,12 +5,11 @@ use rtl_model::d3d11;
 use rtl_model::patch::Level;
 use serde::{Serialize, Serializer};
 
-/// The units that have a pattern of their own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+/// The units whose patterns are made from factors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
     Hybrid,
     Moreton,
-    #[value(name = "d3d11")]
     D3d11,
 }
 
