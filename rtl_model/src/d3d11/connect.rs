@@ -1,6 +1,6 @@
-//! Connect: the counts of a pattern's factors in, its indices out: the transitions between edges and
-//! the inner partition, and then, as long as it is in no table (`inside`), ring by ring what lies
-//! within (`stitch`).
+//! Connect: the counts of a pattern's factors in, its indices out: the transitions between edges
+//! and the inner partition, and then, as long as it is in no table (`inside`), ring by ring what
+//! lies within (`stitch`).
 
 use super::inside::{self, BLOCK, Insides};
 use super::stitch::{Ring, SLACK, Stitch};

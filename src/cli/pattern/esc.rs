@@ -14,7 +14,7 @@ const EDGES: [(Edge, &str); 3] =
     [(Edge::Left, "left"), (Edge::Right, "right"), (Edge::Bottom, "bottom")];
 
 #[derive(Debug, clap::Args)]
-pub(super) struct Args {
+pub(super) struct CoarseArgs {
     /// Of unit esc: the level, 1 to 15
     #[arg(long, value_name = "L", allow_hyphen_values = true, conflicts_with = "batch")]
     level: Option<String>,
@@ -29,7 +29,7 @@ pub(super) struct Args {
     bottom: Option<String>,
 }
 
-impl Args {
+impl CoarseArgs {
     /// The flags, and whether each was given.
     pub(super) fn given(&self) -> [(&'static str, bool); 4] {
         let Self { level, left, right, bottom } = self;
@@ -50,7 +50,7 @@ struct Shape {
 }
 
 /// Answers the flags.
-pub(super) fn one(args: &Args, out: &mut impl Write) -> Result<()> {
+pub(super) fn one(args: &CoarseArgs, out: &mut impl Write) -> Result<()> {
     let wrong = |flag: &str, message: String| Error::Usage(format!("--{flag}: {message}"));
     let level = level(args.level.as_deref()).map_err(|message| wrong("level", message))?;
     let all = "1".repeat(level.into());

@@ -64,7 +64,7 @@ pub(crate) struct Args {
     #[arg(conflicts_with = "batch")]
     factors: Option<String>,
     #[command(flatten)]
-    coarse: esc::Args,
+    coarse: esc::CoarseArgs,
     /// A file of lines such as `quad fractional ccw 3.3 2.7 5.1 4.2 3 2`, or for unit esc
     /// `esc 3 101 000 111`; - for standard input
     #[arg(long, value_name = "FILE")]
