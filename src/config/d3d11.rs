@@ -45,7 +45,7 @@ pub enum Form {
     Paired,
     /// The same weights, summed from left to right as shader samples do. Cracks where sums round.
     Sequential,
-    /// The power basis of paper 004, `[U][N][B][M]^T[V]`. Cracks.
+    /// The power basis, `[U][N][B][M]^T[V]` (Concheiro et al. 2014, Equation 6). Cracks.
     Power,
 }
 

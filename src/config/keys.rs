@@ -170,7 +170,7 @@ const PLAIN: &[Key] = &[
     ),
     key(
         "domain.arithmetic",
-        "in which numbers it evaluates; fixed: those of position.width, each operation rounded",
+        "in which numbers it evaluates; fixed: those of position.width, each product rounded",
         "f32 or fixed",
     ),
     key("domain.weight_bits", "fraction bits of a weight (fixed)", "16..=30"),

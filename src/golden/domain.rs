@@ -6,7 +6,7 @@
 
 use super::{Real, evaluate};
 
-/// `[N]` of paper 004, Eq. 4, from u^3 down to 1.
+/// `[N]` of Concheiro et al. 2014, Equation 4, from u^3 down to 1.
 const N: [[f64; 4]; 4] =
     [[-1.0, 3.0, -3.0, 1.0], [3.0, -6.0, 3.0, 0.0], [-3.0, 3.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]];
 

@@ -1,5 +1,5 @@
 //! Hull: control points in clip space in, the distance test's two points at each candidate position
-//! out, and tessellation factors from what is inserted (paper 004, Eq. 9).
+//! out, and tessellation factors from what is inserted (Concheiro et al. 2014, Equation 9).
 //!
 //! The polygon is the piecewise linear function of its four vertices at 0, 1/3, 2/3, 1; the curve
 //! comes from de Casteljau. Their distance on the screen is taken over one denominator, where the

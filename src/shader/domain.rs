@@ -1,5 +1,6 @@
 //! The domain shader: 16 control points and a domain point (u, v) in, the point of the bicubic
-//! Bezier patch out (Direct3D 11; paper 004, Eq. 5 to 8). Rational patches are homogeneous points.
+//! Bezier patch out (Direct3D 11; Concheiro et al. 2014, Equations 5 to 8). Rational patches are
+//! homogeneous points.
 //!
 //! u and v are U1.16, as the tessellator gives them: u and 1 - u are exact in both arithmetics.
 //! Rows of the net first, then the curve along v:

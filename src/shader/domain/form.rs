@@ -56,8 +56,8 @@ fn horner<D: Datapath>(d: D, u: D::Weight, [c0, c1, c2, c3]: [D::Value; 4]) -> D
     d.sum(d.scale(u, d.sum(d.scale(u, inner), c1)), c0)
 }
 
-/// The coefficients of 1, u, u^2, u^3: `[N]` of paper 004, Eq. 4, times four points. The products
-/// by 3 and their differences serve two coefficients each.
+/// The coefficients of 1, u, u^2, u^3: `[N]` of Concheiro et al. 2014, Equation 4, times four
+/// points. The products by 3 and their differences serve two coefficients each.
 #[inline(always)]
 fn power<D: Datapath>(d: D, [p0, p1, p2, p3]: [D::Value; 4]) -> [D::Value; 4] {
     let [t0, t1, t2] = [p0, p1, p2].map(|p| d.triple(p));
