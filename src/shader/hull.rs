@@ -1,9 +1,9 @@
 //! The hull shader's adaptive policy: control points in clip space in, tessellation factors out.
 //!
-//! The distance test of Concheiro et al. 2014 (Equation 9; AdptTess, section 4): the control polygon
-//! of an edge is divided in its three cells, each with L candidate positions. At each, V_S on the
-//! control polygon and V_B on the curve are projected to pixels, and a vertex is inserted where they
-//! are more than a threshold apart:
+//! The distance test of Concheiro et al. 2014 (Equation 9; AdptTess, section 4): the control
+//! polygon of an edge is divided in its three cells, each with L candidate positions. At each, V_S
+//! on the control polygon and V_B on the curve are projected to pixels, and a vertex is inserted
+//! where they are more than a threshold apart:
 //!
 //! ```text
 //!              P1 ·──·──·──·──· P2       k = 1 .. 3 (L + 1) - 1, no multiple of L + 1
