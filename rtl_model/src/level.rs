@@ -72,7 +72,7 @@ pub struct Events {
 }
 
 /// A projected point in pixels, Q24.16; `None` where there is none.
-type Pixel = Option<[i64; 2]>;
+pub(crate) type Pixel = Option<[i64; 2]>;
 
 /// Largest projected coordinate, 2^23 pixels in Q24.16.
 const PIXEL_MAX: i64 = (1 << 39) - 1;
@@ -135,7 +135,8 @@ fn clamp(level: u64, state: &State) -> Level {
     Level::clamped(level.clamp(state.min.fx16().into(), state.max.fx16().into()))
 }
 
-fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
+/// The pixel of a point, if it has one: not nearer than the view allows, and within the range.
+pub(crate) fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
     if w < view.near || w <= 0 {
         return None;
     }
