@@ -31,6 +31,7 @@
 //! of a division ([`strip`]), one slot a cycle, three comparators of 9 bits.
 
 mod list;
+pub mod resolution;
 mod row;
 pub mod strip;
 
@@ -41,6 +42,16 @@ use row::nearest;
 
 /// The greatest level: 16 segments an edge, 153 sites, 256 triangles.
 pub const LEVEL_MAX: u8 = 15;
+
+/// The levels of resolution of a patch: candidates in each third of an edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Levels {
+    /// Of the edges v0, u1, v1, u0: each a function of that edge's own points, and at most
+    /// `interior`.
+    pub edges: [u8; 4],
+    /// Of the patch's pattern, 0 to [`LEVEL_MAX`].
+    pub interior: u8,
+}
 
 /// A place of the uniform pattern, whether a vertex is inserted there or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
