@@ -38,6 +38,7 @@ mod made;
 mod mesh;
 mod pattern;
 mod power;
+pub mod resolution;
 mod row;
 mod sample;
 mod section;
