@@ -81,7 +81,7 @@ impl<'a, M: Make> Run<'a, M> {
             self.end_frame()?;
         }
         if !self.config.unit.host_tessellates() {
-            let transfer = link::to(self.config.unit, command);
+            let transfer = link::to(self.config, command);
             transfer.count(&self.config.link, &mut self.counters);
             let written = link::write_resident(command, self.config, &mut self.counters);
             self.send(transfer.payload(), written)?;
