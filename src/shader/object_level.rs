@@ -179,9 +179,8 @@ mod tests {
     #[test]
     fn what_is_too_near_or_too_large_has_full_detail_and_nothing_has_none() {
         let far = Policy::Distance { full: 0.0 };
-        let level = |bounds: &Bounds, matrix: &Mat4, policy| {
-            super::level(bounds, matrix, &settings(policy))
-        };
+        let level =
+            |bounds: &Bounds, matrix: &Mat4, policy| level(bounds, matrix, &settings(policy));
         let near = bounds(&[[0.0, 0.0, -0.25, 1.0], [1.0, 1.0, -9.0, 1.0]]);
         assert_eq!(level(&near, &projection(), far), 3);
         let behind = bounds(&[[0.0, 0.0, 1.0, 1.0], [1.0, 1.0, -9.0, 1.0]]);
