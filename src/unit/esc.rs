@@ -251,6 +251,7 @@ fn count_points(made: &Made, counters: &mut Counters) {
     counters.add(Counter::SurfaceCoarse, made.coarse);
     counters.add(Counter::SurfaceInterior, made.interior);
     counters.add(Counter::SurfaceTested, made.tested);
+    counters.add(Counter::SurfaceTestedBoundary, made.tested_boundary);
     counters.add(Counter::SurfaceCorners, made.corners);
     counters.add(Counter::SurfacePoints, made.distinct);
     counters.add(Counter::SurfaceStripVertices, made.strip_vertices);
