@@ -11,7 +11,7 @@
 //! 1, 6), the next a divided difference, at most 6, the last a point of the hull, 1. So registers
 //! of W + 8 + guard bits hold everything, with room for the roundings.
 
-use crate::number::{RoundingMode, shift_right, shift_right_wide};
+use crate::number::{Rounding, RoundingMode, shift_right};
 use crate::patch::Point;
 
 /// Bits that the power basis of a surface needs above a coordinate's.
@@ -65,10 +65,21 @@ impl Cubic {
 #[inline(always)]
 fn product<R: RoundingMode, const NARROW: bool>(c: i64, t: Parameter) -> i64 {
     if NARROW {
-        shift_right::<R>(c * t.fx as i64, t.bits)
-    } else {
-        shift_right_wide::<R>(i128::from(c) * i128::from(t.fx), t.bits) as i64
+        return shift_right::<R>(c * t.fx as i64, t.bits);
     }
+    // As `shift_right_wide` has it, in 64 bits: t is at most 1, so that the result fits.
+    let exact = i128::from(c) * i128::from(t.fx);
+    let (high, low) = ((exact >> 64) as u64, exact as u64);
+    let floor = (high << (64 - t.bits) | low >> t.bits) as i64;
+    let half = 1 << (t.bits - 1);
+    let cut = low & (2 * half - 1);
+    let up = match R::MODE {
+        Rounding::Floor => false,
+        Rounding::NearestUp => cut >= half,
+        Rounding::NearestEven => cut + (floor as u64 & 1) > half,
+        Rounding::NearestAway => cut >= half + u64::from(c < 0),
+    };
+    floor + i64::from(up)
 }
 
 /// `[N][B][M]^T` of a surface.
