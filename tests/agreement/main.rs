@@ -15,6 +15,7 @@ mod planes;
 mod random;
 mod samples;
 mod shaders;
+mod surfaces;
 mod table;
 #[allow(dead_code, reason = "tests/accuracy.rs reads what is left over here")]
 #[path = "../support/walk.rs"]
