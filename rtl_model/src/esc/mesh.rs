@@ -240,11 +240,11 @@ impl Walker {
         // In another space, no point of the mesh is of use.
         self.scope += u32::from(tests == Tests::Apart);
         for (number, edge) in CoarseEdge::ALL.iter().enumerate() {
-            if tested >> number & 1 == 0 {
+            let level = edge.level(self.levels);
+            if tested >> number & 1 == 0 || level == 0 {
                 continue;
             }
             self.scope += u32::from(reuse == Reuse::None); // each test on its own
-            let level = edge.level(self.levels);
             let candidates = (1..=level).map(|k| slot(k, level, interior));
             let ends = [0, segments].into_iter().filter(|_| ends);
             for position in candidates.chain(ends) {

@@ -17,7 +17,7 @@
 use super::pattern::{LINES_MAX, Parameters, Place};
 use super::power::{Cubic, Net, Parameter};
 use super::{Boundary, Corner, Levels, crack, slot};
-use crate::number::{Format, OverflowMode, RoundingMode, divide, shift_right};
+use crate::number::{Divisor, Format, OverflowMode, RoundingMode, shift_right};
 use crate::patch::{EDGES, Point};
 
 /// What of a patch's levels a sample depends on.
@@ -194,21 +194,24 @@ impl Sampler {
         {
             return self.half::<R, O, NARROW>(parameters, edge, level, line);
         }
-        let bits = self.path.bits;
-        let [fx_u, fx_v] = grid
-            .lines(place)
-            .map(|(level, line)| Parameter { fx: parameters.fx(level, line), bits });
-        let [_, (level, line)] = grid.lines(place);
+        let lines = grid.lines(place);
+        let [u, v] = lines.map(|(level, line)| self.parameter(parameters, level, line));
+        let [_, (level, line)] = lines;
         let row = if level == grid.levels.interior {
             if self.known >> line & 1 == 0 {
                 self.known |= 1 << line;
-                self.rows[usize::from(line)] = self.net.row::<R, NARROW>(fx_v);
+                self.rows[usize::from(line)] = self.net.row::<R, NARROW>(v);
             }
-            self.rows[usize::from(line)]
+            &self.rows[usize::from(line)]
         } else {
-            self.net.row::<R, NARROW>(fx_v)
+            &self.net.row::<R, NARROW>(v) // a vertex of an edge with a level of its own
         };
-        self.rounded::<R, O>(row.at::<R, NARROW>(fx_u))
+        let point = row.at::<R, NARROW>(u);
+        self.rounded::<R, O>(point)
+    }
+
+    fn parameter(&self, parameters: &Parameters, level: u8, line: u8) -> Parameter {
+        Parameter { fx: parameters.fx(level, line), bits: self.path.bits }
     }
 
     /// A boundary point, from the corner that is nearer to it.
@@ -229,7 +232,7 @@ impl Sampler {
         }
         let far = 2 * line > last;
         let line = if far { last - line } else { line };
-        let t = Parameter { fx: parameters.fx(level, line), bits: self.path.bits };
+        let t = self.parameter(parameters, level, line);
         let point = self.halves[edge][usize::from(far)].at::<R, NARROW>(t);
         self.rounded::<R, O>(point)
     }
@@ -259,12 +262,27 @@ impl Sampler {
     }
 }
 
-/// The point `k` of `segments` on the way from one point to another: one rounding, so that the ends
-/// may be swapped.
-pub(super) fn between<R: RoundingMode>(a: Point, b: Point, k: u8, segments: u8) -> Point {
-    let (far, near) = (i64::from(segments - k), i64::from(k));
-    // W + 4 bits over 5
-    std::array::from_fn(|axis| {
-        divide::<R>((a[axis] * far + b[axis] * near).into(), segments.into()) as i64
-    })
+/// Points on a line between two others, at equal steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    from: Point,
+    to: Point,
+    segments: i64,
+    divisor: Divisor,
+}
+
+impl Line {
+    pub(super) fn new(from: Point, to: Point, segments: u8) -> Self {
+        Self { from, to, segments: segments.into(), divisor: Divisor::new(segments.into()) }
+    }
+
+    /// Point `k`, rounded once: the same if the ends are swapped.
+    #[inline]
+    pub(super) fn at<R: RoundingMode>(&self, k: u8) -> Point {
+        let (near, far) = (i64::from(k), self.segments - i64::from(k));
+        // W + 4 bits over 5; the quotient is a coordinate of 48 bits at most
+        std::array::from_fn(|axis| {
+            self.divisor.divide::<R>(self.from[axis] * far + self.to[axis] * near, 1 << 48)
+        })
+    }
 }
