@@ -1,0 +1,207 @@
+//! The curves as text, as CSV and as a picture.
+
+use super::plot::{Chart, Mark, Series};
+use super::{Curve, NEAR, PAPER, SCENES, Sample, Study, plot, uniform_triangles};
+use crate::error::Result;
+use crate::study::esc::{nano, reading};
+use crate::study::markdown;
+use std::fmt::Write;
+
+/// The columns of `triangles.csv`. `mu_nano`: 1e-9 pixels or object units; `row`: `curve`, or the
+/// row of the paper's table that this mu comes nearest to.
+pub const CSV_HEADER: [&str; 9] = [
+    "control_mesh",
+    "space",
+    "row",
+    "mu_nano",
+    "level",
+    "teacups_uniform",
+    "teacups_triangles",
+    "elephants_uniform",
+    "elephants_triangles",
+];
+
+/// The paper calls 1024 a thousand: 2600 x 288 are 731.25 of them, and 731.32 are printed.
+const THOUSAND: f64 = 1024.0;
+const PAPER_UNIFORM: [&str; SCENES] = ["731.32", "2280.94"];
+const NAMES: [&str; SCENES] = ["teacups", "elephants"];
+
+/// `triangles.csv`: integers only, beside names.
+#[must_use]
+pub fn csv(study: &Study) -> String {
+    let mut text = CSV_HEADER.join(",") + "\n";
+    for curve in &study.curves {
+        let space = curve.test.unit().split(' ').next().unwrap_or_default();
+        let best = PAPER.iter().map(|row| row.0).zip(&curve.best);
+        let rows = curve.samples.iter().map(|sample| ("curve", sample)).chain(best);
+        for (row, sample) in rows {
+            let numbers = [
+                nano(sample.mu),
+                study.options.level.into(),
+                curve.uniform[0],
+                sample.triangles[0],
+                curve.uniform[1],
+                sample.triangles[1],
+            ];
+            let numbers = numbers.map(|n| n.to_string()).join(",");
+            let mesh = reading(curve.test.mesh);
+            writeln!(text, "{mesh},{space},{row},{numbers}").expect("a String takes everything");
+        }
+    }
+    text
+}
+
+/// The tables for people, in Markdown.
+#[must_use]
+pub fn text(study: &Study) -> String {
+    let mut text = not_adaptive(study);
+    for curve in &study.curves {
+        text += "\n";
+        text += &over_mu(curve);
+    }
+    text +=
+        "\none common mu for both scenes: the one with the least larger deviation, in points\n\n";
+    text += &best(study);
+    text += &verdict(study);
+    text
+}
+
+fn not_adaptive(study: &Study) -> String {
+    let each = uniform_triangles(study.options.level);
+    let row = |k: usize| {
+        let (patches, triangles) = (study.patches[k], study.uniform[k]);
+        let equal = if triangles == patches * each { "equal" } else { "NOT EQUAL" };
+        [
+            NAMES[k].to_owned(),
+            patches.to_string(),
+            triangles.to_string(),
+            format!("{patches} x {each}, {equal}"),
+            format!("{:.2}", triangles as f64 / THOUSAND),
+            PAPER_UNIFORM[k].to_owned(),
+        ]
+    };
+    let columns = ["scene", "patches", "triangles", "by the pattern", "in 1024s", "paper"];
+    let head = format!(
+        "not adaptive, L = {}: every patch, nothing clipped or culled\n\n",
+        study.options.level
+    );
+    head + &markdown::table(&columns, 1, &[row(0), row(1)])
+}
+
+/// A curve at every octave.
+fn over_mu(curve: &Curve) -> String {
+    let whole = |sample: &&Sample| sample.mu.log2().fract() == 0.0;
+    let row = |sample: &Sample| {
+        let [cups, elephants] = curve.fractions(sample).map(percent);
+        [digits(sample.mu), cups, elephants]
+    };
+    let rows: Vec<_> = curve.samples.iter().filter(whole).map(row).collect();
+    let mu = format!("mu, {}", curve.test.unit());
+    let table = markdown::table(&[&mu, "teacups %", "elephants %"], 0, &rows);
+    format!("control mesh: {}\n\n{table}", reading(curve.test.mesh))
+}
+
+fn best(study: &Study) -> String {
+    let mut rows = Vec::new();
+    for curve in &study.curves {
+        for (number, (name, paper)) in PAPER.iter().enumerate() {
+            let sample = &curve.best[number];
+            let [cups, elephants] = curve.fractions(sample).map(percent);
+            let alone = [0, 1].map(|scene| curve.alone(scene, number));
+            let ratio = match alone {
+                [Some(a), Some(b)] => digits(b / a),
+                _ => "-".to_owned(),
+            };
+            let [paper_cups, paper_elephants] = paper.map(|h| percent(f64::from(h) / 1e4));
+            rows.push([
+                curve.test.name(),
+                (*name).to_owned(),
+                format!("{paper_cups} / {paper_elephants}"),
+                digits(sample.mu),
+                format!("{cups} / {elephants}"),
+                percent(curve.deviation(sample, number)),
+                alone[0].map_or("-".to_owned(), digits),
+                alone[1].map_or("-".to_owned(), digits),
+                ratio,
+            ]);
+        }
+    }
+    let columns = [
+        "test",
+        "row",
+        "paper %",
+        "best mu",
+        "measured %",
+        "off by",
+        "mu, teacups alone",
+        "elephants alone",
+        "ratio",
+    ];
+    markdown::table(&columns, 2, &rows)
+}
+
+fn verdict(study: &Study) -> String {
+    let near = f64::from(NEAR) / 1e4;
+    let mut text = String::new();
+    for curve in &study.curves {
+        let said: Vec<String> = (0..PAPER.len())
+            .map(|row| {
+                let holds = curve.deviation(&curve.best[row], row) <= near;
+                format!("{} {}", PAPER[row].0, if holds { "yes" } else { "no" })
+            })
+            .collect();
+        let name = curve.test.name();
+        writeln!(text, "within five points at one mu ({name}): {}", said.join(", "))
+            .expect("a String takes everything");
+    }
+    let size = study.options.elephants;
+    writeln!(
+        text,
+        "the elephants are a stand-in, {size} of them: their shape, and in object units their size, \
+         are ours\nratio: elephants' own mu over the teacups'; one size of elephant fits both rows \
+         where it is the same in both"
+    )
+    .expect("a String takes everything");
+    text
+}
+
+/// `triangles.svg`: the elephants' part over the teacups' part, mu running along each curve; the
+/// paper's two rows as points with five points' room around them.
+///
+/// # Errors
+/// None that can be expected: it is drawn into memory.
+pub fn svg(study: &Study) -> Result<String> {
+    let series = study.curves.iter().map(|curve| Series {
+        name: curve.test.name(),
+        points: curve
+            .samples
+            .iter()
+            .map(|sample| curve.fractions(sample).map(|part| 100.0 * part).into())
+            .collect(),
+    });
+    let mark = |(name, [x, y]): &(&str, [u32; SCENES])| Mark {
+        name: format!("paper, {name}"),
+        at: (f64::from(*x) / 100.0, f64::from(*y) / 100.0),
+        room: f64::from(NEAR) / 100.0,
+    };
+    plot::svg(&Chart {
+        file: "triangles.svg",
+        title: "Adaptive triangles in % of the uniform ones, one mu for both scenes",
+        x: "teacups",
+        y: "elephants",
+        log: false,
+        series: series.collect(),
+        levels: Vec::new(),
+        marks: PAPER.iter().map(mark).collect(),
+    })
+}
+
+fn percent(part: f64) -> String {
+    format!("{:.2}", 100.0 * part)
+}
+
+/// Three digits that count.
+fn digits(value: f64) -> String {
+    let places = (2 - value.log10().floor() as i32).clamp(0, 8) as usize;
+    format!("{value:.places$}")
+}
