@@ -14,7 +14,7 @@ mod table;
 
 use super::energy::Prices;
 use super::scene::Scene;
-use super::{all_patches, plot, some, uniform, uniform_triangles};
+use super::{all_patches, plot, some, uniform};
 use crate::config::{
     Arithmetic, Config, Criterion, DomainKind, Engine, Form, Partitioning, Reuse, Unit,
 };

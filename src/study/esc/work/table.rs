@@ -83,12 +83,15 @@ pub fn csv(rows: &[Row], options: &Options) -> String {
     text
 }
 
+/// What a table is of.
+type Quantity = fn(&Row) -> f64;
+
 /// The tables for people, in Markdown: quantities a patch, then ratios of speed.
 #[must_use]
 pub fn text(rows: &[Row], options: &Options) -> String {
     let mut text = String::new();
-    let of_patch = |of: fn(&Row) -> f64| move |row: &Row| of(row) / row.patches as f64;
-    let tables: [(&str, fn(&Row) -> f64); 8] = [
+    let of_patch = |of: Quantity| move |row: &Row| of(row) / row.patches as f64;
+    let tables: [(&str, Quantity); 8] = [
         ("triangles", |row| row.triangles as f64),
         ("shader invocations", |row| row.invocations as f64),
         ("control points read to evaluate", |row| row.control_points as f64),

@@ -1,5 +1,6 @@
 //! Counts by closed form, and what must be more or less than what.
 
+use super::super::uniform_triangles;
 use super::*;
 use crate::config::preset::Preset;
 
