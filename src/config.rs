@@ -9,6 +9,7 @@ pub mod block;
 pub mod check;
 pub mod d3d11;
 mod default;
+pub mod esc;
 pub mod keys;
 pub mod layers;
 pub mod link;
@@ -18,11 +19,13 @@ mod union;
 
 use serde::{Deserialize, Serialize};
 
-pub use block::{BackfaceCosts, BlockCosts, Blocks, DomainCosts, EvaluateCosts};
+pub use block::{BackfaceCosts, BlockCosts, Blocks, DomainCosts, EvaluateCosts, SurfaceCosts};
 pub use d3d11::{Arithmetic, Domain, DomainKind, FactorPolicy, Form, Hull, Tessellator};
+pub use esc::{Esc, LevelPolicy, LevelScope, Space};
 pub use link::{Bus, Channels, Link, Memory, TransferMode};
 pub use rtl_model::backface::Method as BackfaceMethod;
 pub use rtl_model::d3d11::Partitioning;
+pub use rtl_model::esc::{Boundary, ControlMesh, Reuse};
 pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::level::Termination;
 pub use rtl_model::number::{Overflow, Rounding};
@@ -47,12 +50,14 @@ pub enum Unit {
     Moreton,
     /// What ships today: hull shader, fixed-function tessellator, domain shader.
     D3d11,
+    /// The surface-level shader of Concheiro et al.: one invocation a patch.
+    Esc,
 }
 
 impl Unit {
     /// All of them, the default first.
-    pub const ALL: [Self; 5] =
-        [Self::Hybrid, Self::Triangles, Self::Sfarti, Self::Moreton, Self::D3d11];
+    pub const ALL: [Self; 6] =
+        [Self::Hybrid, Self::Triangles, Self::Sfarti, Self::Moreton, Self::D3d11, Self::Esc];
 
     /// The name in configurations and reports.
     #[must_use]
@@ -63,6 +68,7 @@ impl Unit {
             Self::Sfarti => "sfarti",
             Self::Moreton => "moreton",
             Self::D3d11 => "d3d11",
+            Self::Esc => "esc",
         }
     }
 
@@ -80,10 +86,10 @@ impl Unit {
     }
 
     /// Whether a vertex shader lights what leaves the unit: where there is none, the domain shader
-    /// does.
+    /// or the surface shader does.
     #[must_use]
     pub const fn has_vertex_shader(self) -> bool {
-        !matches!(self, Self::D3d11)
+        !matches!(self, Self::D3d11 | Self::Esc)
     }
 
     /// Whether the unit works in object space, and a vertex program transforms what leaves it.
@@ -157,6 +163,8 @@ pub struct Config {
     pub evaluate: Evaluate,
     /// The domain shader (unit `d3d11`).
     pub domain: Domain,
+    /// The surface shader (unit `esc`).
+    pub esc: Esc,
     /// Attributes of corners, interpolated over the patch.
     pub attributes: Attributes,
     /// Divide and output.

@@ -12,6 +12,18 @@ pub struct FrameInfo {
     pub number: u64,
     /// Format of the mesh's positions, viewport, depth range.
     pub view: View,
+    /// What the parameters of its vertices stand for.
+    pub grid: Grid,
+}
+
+/// What parameters in U1.16 stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grid {
+    /// Themselves.
+    Fx16,
+    /// Fractions of at most 48 parts: each the one that is nearest (unit `esc`, whose grid is
+    /// thirds).
+    Thirds,
 }
 
 /// What a unit made of one patch.
@@ -21,7 +33,8 @@ pub struct PatchMesh<'a> {
     pub patch: u32,
     /// `"front":"reversed"`: the side where `Su x Sv` points is the back.
     pub reversed: bool,
-    /// Vertices: boundary counter-clockwise from (0, 0), then the interior row by row.
+    /// Vertices: boundary counter-clockwise from (0, 0), then the interior row by row; in unit
+    /// `d3d11` in the order of its tessellator, in `esc` in that of their first use.
     pub vertices: &'a [Vertex],
     /// Their screen positions, one each; empty when `emit.divide` is off.
     pub screen: &'a [Screen],

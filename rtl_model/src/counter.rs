@@ -73,6 +73,10 @@ pub enum Block {
     Stitch,
     /// The domain shader.
     Domain,
+    /// Patches to waves.
+    Group,
+    /// The surface shader.
+    Surface,
     /// Perspective divide and output.
     Emit,
     /// The vertex shader.
@@ -103,6 +107,8 @@ impl Block {
             Self::Evaluate => "evaluate",
             Self::Stitch => "stitch",
             Self::Domain => "domain",
+            Self::Group => "group",
+            Self::Surface => "surface",
             Self::Emit => "emit",
             Self::VertexShader => "vertex_shader",
             Self::Unit => "unit",
@@ -157,7 +163,7 @@ counters! {
         LinkMatrices "bytes.matrices" Bytes "matrices, 64 bytes each: view and projection of a frame, model or instances of a draw", "";
         LinkControlPoints "bytes.control_points" Bytes "control points, 12 bytes (xyz) or 16 (xyzw), where their command stands", "";
         LinkAttributes "bytes.attributes" Bytes "attributes of corners, each component by its format, where their command stands", "";
-        LinkFactors "bytes.factors" Bytes "levels of patches' edges that the driver chose: 4 floats a patch (unit `moreton`)", "= 16 x trace patches, or 0";
+        LinkFactors "bytes.factors" Bytes "levels that the driver chose: 4 floats a patch (unit `moreton`), or 4 bytes an instance (unit `esc`, `esc.scope` object)", "= 16 x trace patches, 4 x instances, or 0";
         LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`)", "";
         LinkIndices "bytes.indices" Bytes "indices of indexed meshes, 2 or 4 bytes each: 16 a patch, and 4 of its corners' attributes; in unit `triangles` those of triangles, 2 bytes, or 4 where a draw has more than 65536 vertices", "";
         LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload; under pull for each completion of its reads", "";
@@ -184,6 +190,7 @@ counters! {
     Port {
         PortPoints "points" Count "control points quantised", "= transform invocations";
         PortSaturated "saturated" Count "control points of which a coordinate did not fit the position format", "<= port points";
+        PortObjectSaturated "saturated.object" Count "control points of which a coordinate did not fit the format of object space, where they are wanted beside those in clip space (unit `esc`, `esc.space` object)", "<= port points";
         PortAttributesSaturated "attributes.saturated" Count "components of attributes that did not fit the attribute format, once where their command stands", "";
         PortOverflows "overflows" Count "coordinates that did not fit the position format", "saturated <= overflows <= 4 x saturated";
     }
@@ -281,11 +288,48 @@ counters! {
         DomainCracks "cracks" Count "points of edges, corners left out, that come out otherwise for a neighbour that walks the edge from its other end or has it on another side: 0 under `paired`", "<= points";
         DomainOverflows "overflows" Count "coordinates of shaded points that did not fit the position format", "";
     }
+    Group {
+        GroupWaves "waves" Count "SIMD waves of invocations: full ones, and those that end with their draw or batch", "= tokens.out";
+        GroupInvocations "invocations" Count "invocations that joined a wave", "= surface invocations";
+        GroupIdle "lanes.idle" Count "SIMD lanes of waves without an invocation", "rounds x esc.width = invocations + lanes.idle";
+        GroupRounds "rounds" Count "waves, those of a patch with more sections than lanes counted as often as it fills them", ">= waves";
+    }
+    Surface {
+        SurfaceInvocations "invocations" Count "surface-shader invocations: one a patch, or one a section of it (`esc.output_values`)", ">= level patches";
+        SurfaceControlPoints "control_points" Count "control points read, 16 an invocation", "= 16 x invocations";
+        SurfaceBytesIn "bytes.in" Bytes "what they read: 16 vec4 an invocation, as many again of three components where the test is in object units, and attributes of four corners", ">= 256 x invocations";
+        SurfaceNets "nets" Count "products [N][B][M]^T of four components", "= invocations";
+        SurfaceObjectNets "nets.object" Count "the same of control points in object space, for tests in object units", "= invocations or 0";
+        SurfaceTests "tests" Count "distance tests of candidates", "0 where `esc.mu` is 0";
+        SurfaceInserted "tests.inserted" Count "of those, where the vertex was inserted", "<= tests";
+        SurfaceEvaluations "evaluations" Count "points evaluated, corners of patches not counted: they are copied", "= sum of evaluations.*";
+        SurfaceBoundary "evaluations.boundary" Count "of those, on the patch's boundary", "";
+        SurfaceCoarse "evaluations.coarse_edges" Count "of those, on coarse edges within the patch", "";
+        SurfaceInterior "evaluations.interior" Count "of those, within coarse triangles", "";
+        SurfaceTested "evaluations.tests" Count "of those, for a test alone: not inserted, or not kept, or in object space", "";
+        SurfaceCorners "corners" Count "corners of patches, copied", "";
+        SurfacePoints "points" Count "distinct points of the mesh", "<= emit vertices";
+        SurfaceStripVertices "strip_vertices" Count "vertices of the triangle strips, as lists (section 3 of the paper)", ">= points";
+        SurfaceSlots "slots" Count "slots of the strips: triangles, or nothing", "triangles <= slots";
+        SurfaceTriangles "triangles" Count "triangles made", "= emit triangles";
+        SurfaceDegenerate "triangles.degenerate" Count "triangles with two equal clip positions; they stay in the mesh", "<= triangles";
+        SurfaceMoved "vertices.moved" Count "vertices on edges of a lower level than their patch's that stand beside the pattern's place", "<= points";
+        SurfaceBufferPeak "buffer.bits.peak" Bits "what an invocation keeps of points that it evaluated: a position each", "";
+        SurfaceRegistersPeak "registers.bits.peak" Bits "registers of an invocation: 64 coefficients, and `esc.registers` words", "= 64 x (position.width + 8 + guard) + 32 x registers, or 0";
+        SurfaceLaneCycles "lane_cycles" Cycles "lanes of the waves x the cycles that each wave takes", "= lane_cycles.used + lane_cycles.idle";
+        SurfaceUsedCycles "lane_cycles.used" Cycles "of those, in which a lane has something to do", "";
+        SurfaceIdleCycles "lane_cycles.idle" Cycles "of those, in which it waits for another lane, or has no invocation", "";
+        SurfaceAttributes "attributes" Count "components of attributes interpolated: a draw's, at each vertex that leaves", "";
+        SurfaceBytesOut "bytes.out" Bytes "vertices with their attributes", "= emit vertices x esc.bytes_out + emit bytes.attributes";
+        SurfaceNormals "normals" Count "tangent planes evaluated", "= emit vertices or 0";
+        SurfaceCracks "cracks" Count "points of edges, corners left out, that come out otherwise for a neighbour that walks the edge from its other end or has it on another side: 0 under `symmetric`", "<= points";
+        SurfaceOverflows "overflows" Count "coordinates of evaluated points that did not fit the position format", "";
+    }
     Emit {
-        EmitVertices "vertices" Count "vertices that left the unit", "= evaluate vertices, or domain invocations";
-        EmitTriangles "triangles" Count "triangles that left the unit", "= stitch or connect triangles";
-        EmitAttributeBytes "bytes.attributes" Bytes "interpolated attributes that left the unit with its vertices", "= evaluate or domain attributes x bytes of a component";
-        EmitBytes "bytes" Bytes "vertex records, attributes and triangle indices that left the unit", "= vertices x vertex_bytes + bytes.attributes + 3 x triangles x index_bytes";
+        EmitVertices "vertices" Count "vertices that left the unit", "= evaluate vertices, or domain invocations; unit `esc`: strip_vertices without reuse, else the points that each invocation or coarse triangle gives";
+        EmitTriangles "triangles" Count "triangles that left the unit", "= stitch, connect or surface triangles";
+        EmitAttributeBytes "bytes.attributes" Bytes "interpolated attributes that left the unit with its vertices", "= evaluate, domain or surface attributes x bytes of a component";
+        EmitBytes "bytes" Bytes "vertex records, attributes and triangle indices that left the unit", "= vertices x vertex_bytes + bytes.attributes + 3 x triangles x index_bytes, these not where strips leave (`esc.reuse` none)";
         EmitToClipper "vertices.to_clipper" Count "vertices left homogeneous: w <= 0, or outside the sub-pixel format's band", "<= vertices";
     }
     VertexShader {

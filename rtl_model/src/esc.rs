@@ -1,6 +1,8 @@
-//! The mesh of a coarse triangle: which candidates of its edges are inserted in, triangles out.
+//! The surface shader of Concheiro, Amor, Boo, Padron 2014 (GRAPP): a patch and its levels in,
+//! vertices and triangles out ([`surface`]); and the mesh of a coarse triangle, from the
+//! candidates of its edges that are inserted ([`Insertion`]), which this page is about.
 //!
-//! Concheiro, Amor, Boo, Padron 2014 (GRAPP), section 3. At level L an edge has R = L + 1 segments.
+//! Section 3. At level L an edge has R = L + 1 segments.
 //! Row r of 0..=R holds r + 1 sites; site i of it has the number r (r + 1) / 2 + i + 1. Only the
 //! sites of the edges are tested; a row's inner sites are inserted where one of its ends is.
 //!
@@ -30,17 +32,44 @@
 //! Hardware: two priority encoders of 17 bits an edge, two walks along rows with a counter instead
 //! of a division ([`strip`]), one slot a cycle, three comparators of 9 bits.
 
+mod crack;
 mod list;
+mod made;
+mod mesh;
+mod pattern;
+mod power;
+pub mod resolution;
 mod row;
+mod sample;
+mod section;
 pub mod strip;
+pub mod surface;
+mod test;
 
 pub use list::List;
+pub use made::{Made, Phase, Phases};
+pub use pattern::{
+    COARSE_EDGES, COARSE_TRIANGLES, CoarseEdge, CoarseTriangle, Corner, Place, fraction, slot,
+    uniform,
+};
+pub use section::Output;
 pub use strip::{Slots, Strip};
+pub use surface::{Boundary, ControlMesh, Input, Reuse, Settings, Surface, Threshold};
 
 use row::nearest;
 
 /// The greatest level: 16 segments an edge, 153 sites, 256 triangles.
 pub const LEVEL_MAX: u8 = 15;
+
+/// The levels of a patch: candidates of a coarse edge, 0 to 15.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Levels {
+    /// Of the thirds of each edge of the patch, v0, u1, v1, u0 as in [`crate::patch::EDGES`]; at
+    /// most `interior`.
+    pub edges: [u8; 4],
+    /// Of all other coarse edges, and of the coarse triangles.
+    pub interior: u8,
+}
 
 /// A place of the uniform pattern, whether a vertex is inserted there or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

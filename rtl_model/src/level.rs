@@ -72,7 +72,7 @@ pub struct Events {
 }
 
 /// A projected point in pixels, Q24.16; `None` where there is none.
-type Pixel = Option<[i64; 2]>;
+pub(crate) type Pixel = Option<[i64; 2]>;
 
 /// Largest projected coordinate, 2^23 pixels in Q24.16.
 const PIXEL_MAX: i64 = (1 << 39) - 1;
@@ -83,8 +83,8 @@ pub fn accept(patch: &Patch, view: &View, state: &State) -> (Levels, Events) {
     let (asked, mut events) = match state.criterion {
         Criterion::Fixed { level } => (Asked::same(u64::from(level.fx16())), Events::default()),
         Criterion::EdgeLength { pixels: d } => {
-            let (points, events) = pixels(patch, view);
-            (bound::edge_length(&points, d), events)
+            let (lengths, events) = lengths(patch, view);
+            (bound::edge_length(lengths, d), events)
         }
         Criterion::Flatness { pixels: d } => {
             let (points, events) = pixels(patch, view);
@@ -92,6 +92,30 @@ pub fn accept(patch: &Patch, view: &View, state: &State) -> (Levels, Events) {
         }
     };
     (asked.granted(state, &mut events), events)
+}
+
+/// Lengths of projected control polygons in 2^-16 pixels, at most 2^43, each segment's rounded up;
+/// `None` where a point has no projection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lengths {
+    /// Of the edges v0, u1, v1, u0: the same from either end.
+    pub edges: [Option<u64>; 4],
+    /// The longest of the net's four rows, and of its four columns.
+    pub interior: [Option<u64>; 2],
+}
+
+/// The lengths that [`Criterion::EdgeLength`] compares; edges without projection and points that
+/// do not fit are counted.
+#[must_use]
+pub fn lengths(patch: &Patch, view: &View) -> (Lengths, Events) {
+    let (points, events) = pixels(patch, view);
+    (bound::lengths(&points), events)
+}
+
+/// Whether a point of this raw w, in the position format, has a projection as far as w decides.
+#[must_use]
+pub const fn in_front(w: i64, view: &View) -> bool {
+    w >= view.near && w > 0
 }
 
 /// Projects the points of a patch, and counts the edges that have one without projection.
@@ -135,8 +159,9 @@ fn clamp(level: u64, state: &State) -> Level {
     Level::clamped(level.clamp(state.min.fx16().into(), state.max.fx16().into()))
 }
 
-fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
-    if w < view.near || w <= 0 {
+/// The pixel of a point, if it has one: not nearer than the view allows, and within the range.
+pub(crate) fn project([x, y, _, w]: Point, view: &View, events: &mut Events) -> Pixel {
+    if !in_front(w, view) {
         return None;
     }
     let pixel = quotients([x, y], w, view);

@@ -12,7 +12,7 @@
 //! What flows from evaluate to stitch is a [`strip`]: two rows whose vertices are complete.
 //!
 //! [`d3d11`] is another unit's: the fixed-function tessellator, from factors to a pattern. [`esc`]
-//! too: the mesh of a coarse triangle, from the vertices that are inserted on its edges.
+//! too: a patch through a shader that does pattern, tests, evaluation and mesh in one.
 //!
 //! A file imports only [`number`], [`mod@time`], [`counter`], [`patch`] and the blocks that stand
 //! above it in the list below, which is the order of the data.

@@ -6,7 +6,7 @@
 //! under way in a lane at once. A block takes at most one token a cycle and gives one a cycle,
 //! however many lanes it has.
 
-use super::{BackfaceMethod, Config, Domain, DomainKind};
+use super::{BackfaceMethod, Config, Domain, DomainKind, Esc};
 use rtl_model::counter::Block;
 use rtl_model::time::{LaneOrder, Shape};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub const ENTRIES_MAX: u32 = 1 << 16;
 pub const LANES_MAX: u32 = 1 << 12;
 
 /// The blocks that have costs, in the order of the data.
-pub const TIMED: [Block; 16] = [
+pub const TIMED: [Block; 18] = [
     Block::Transform,
     Block::Port,
     Block::Assemble,
@@ -34,6 +34,8 @@ pub const TIMED: [Block; 16] = [
     Block::Evaluate,
     Block::Stitch,
     Block::Domain,
+    Block::Group,
+    Block::Surface,
     Block::Emit,
     Block::VertexShader,
 ];
@@ -110,6 +112,33 @@ pub struct DomainCosts {
     pub fifo: u32,
 }
 
+/// The costs of the surface shader. Its program is counted in instructions of a vec4 each; the
+/// interval is that of an instruction.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SurfaceCosts {
+    /// Cycles that an instruction of a wave takes, 1..=[`CYCLES_MAX`].
+    pub interval: u32,
+    /// As [`BlockCosts::latency`]: from a wave's last instruction to its output.
+    pub latency: u32,
+    /// As [`BlockCosts::in_flight`]; as many waves as registers hold when absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub in_flight: Option<u32>,
+    /// Processors, 1..=[`LANES_MAX`].
+    pub lanes: u32,
+    /// As [`BlockCosts::lane_order`].
+    pub lane_order: LaneOrder,
+    /// As [`BlockCosts::fifo`].
+    pub fifo: u32,
+    /// Instructions of a product `[N][B][M]^T`, 0..=[`CYCLES_MAX`].
+    pub net: u32,
+    /// Instructions of a test, without the point that it takes.
+    pub test: u32,
+    /// Instructions of a point.
+    pub point: u32,
+    /// Instructions of a slot of a strip.
+    pub slot: u32,
+}
+
 /// The costs of evaluate.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EvaluateCosts {
@@ -153,6 +182,10 @@ pub struct Blocks {
     pub stitch: BlockCosts,
     /// The domain shader.
     pub domain: DomainCosts,
+    /// Patches to waves.
+    pub group: BlockCosts,
+    /// The surface shader.
+    pub surface: SurfaceCosts,
     /// Perspective divide and output.
     pub emit: BlockCosts,
     /// The vertex shader.
@@ -199,6 +232,19 @@ impl Default for Blocks {
                 lanes,
                 lane_order,
                 fifo: 4,
+            },
+            group: costs(1, 1, 4),
+            surface: SurfaceCosts {
+                interval: 4,
+                latency: 200,
+                in_flight: None,
+                lanes,
+                lane_order,
+                fifo: 2,
+                net: 64,
+                test: 24,
+                point: 16,
+                slot: 4,
             },
             emit: costs(1, 16, 16),
             vertex_shader: costs(1, 200, 32),
@@ -284,6 +330,20 @@ impl DomainCosts {
     }
 }
 
+impl SurfaceCosts {
+    /// The costs of a wave, but for its interval, which is what its patches take.
+    fn of(&self, esc: &Esc) -> BlockCosts {
+        BlockCosts {
+            interval: self.interval,
+            latency: self.latency,
+            in_flight: self.in_flight.or(Some(esc.waves_in_flight())),
+            lanes: self.lanes,
+            lane_order: self.lane_order,
+            fifo: self.fifo,
+        }
+    }
+}
+
 impl Config {
     /// What `block` costs, with what is absent derived; of [`Block::Backface`], what a patch costs
     /// that the configured method tests. `None` for what is no block of the unit: the trace, the
@@ -308,6 +368,8 @@ impl Config {
             Block::Evaluate => blocks.evaluate.costs.holding(2),
             Block::Stitch => blocks.stitch.clone(),
             Block::Domain => blocks.domain.of(&self.domain),
+            Block::Group => blocks.group.clone(),
+            Block::Surface => blocks.surface.of(&self.esc),
             Block::Emit => blocks.emit.clone(),
             Block::VertexShader => blocks.vertex_shader.clone(),
         })

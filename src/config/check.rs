@@ -5,7 +5,7 @@
 use super::block::{CYCLES_MAX, ENTRIES_MAX, LANES_MAX, TIMED};
 use super::d3d11::{CANDIDATES_MAX, WIDTH_MAX as WAVE_MAX};
 use super::link::BANDWIDTH_MAX;
-use super::{Attributes, Config, Criterion, WIDTH_MAX, keys};
+use super::{Attributes, Config, Criterion, Esc, LevelPolicy, LevelScope, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
 use std::fmt::Display;
 
@@ -48,6 +48,7 @@ impl Config {
         self.formats()?;
         self.levels()?;
         self.shaders()?;
+        self.surface()?;
         self.sizes()?;
         self.host_link()?;
         self.device_memory()?;
@@ -119,6 +120,39 @@ impl Config {
         within("domain.width", domain.width, 1, WAVE_MAX)?;
         within("domain.bytes_in", domain.bytes_in, 0, 65536)?;
         within("domain.bytes_out", domain.bytes_out, 0, 65536)
+    }
+
+    fn surface(&self) -> Result<(), Problem> {
+        let Esc { level, scope, .. } = self.esc;
+        let esc = &self.esc;
+        let most = u32::from(rtl_model::esc::LEVEL_MAX);
+        within("esc.level_max", esc.level_max, 0, most)?;
+        within("esc.fixed_level", esc.fixed_level, 0, esc.level_max)?;
+        number("esc.full_distance", Some(esc.full_distance), |w| w > 0.0 && w.is_finite())?;
+        number("esc.full_pixels", Some(esc.full_pixels), |p| p > 0.0 && p <= 65535.0)?;
+        number("esc.mu", Some(esc.mu), |mu| (0.0..=65535.0).contains(&mu))?;
+        if (level, scope) == (LevelPolicy::Criterion, LevelScope::Object) {
+            return Err(Problem::found("esc.scope", "object with esc.level criterion"));
+        }
+        within("esc.guard", esc.guard, 0, 20)?;
+        if self.net_bits() > 63 {
+            let found = guard_found(esc.guard, self.position.width);
+            return Err(Problem::found("esc.guard", found));
+        }
+        within("esc.parameter_bits", esc.parameter_bits, 16, 46)?;
+        within("esc.width", esc.width, 1, WAVE_MAX)?;
+        within("esc.registers", esc.registers, 0, 65536)?;
+        within("esc.register_file", esc.register_file, 1, 1 << 24)?;
+        within("esc.bytes_out", esc.bytes_out, 4, 65536)?;
+        match self.output() {
+            Some(output) if !output.fits() => {
+                let values = output.values_max;
+                let strip = output.values_per_vertex * (2 * u32::from(output.level_max) + 3);
+                let found = format!("{values}, below the {strip} of the longest strip");
+                Err(Problem::found("esc.output_values", found))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn sizes(&self) -> Result<(), Problem> {
@@ -195,7 +229,12 @@ impl Config {
         within("block.backface.interval", backface.interval.unwrap_or(1), 1, CYCLES_MAX)?;
         within("block.backface.latency", backface.latency.unwrap_or(0), 0, CYCLES_MAX)?;
         within("block.domain.interval", self.block.domain.interval.unwrap_or(1), 1, CYCLES_MAX)?;
-        within("block.evaluate.setup", self.block.evaluate.setup, 0, CYCLES_MAX)
+        within("block.evaluate.setup", self.block.evaluate.setup, 0, CYCLES_MAX)?;
+        let surface = &self.block.surface;
+        within("block.surface.net", surface.net, 0, CYCLES_MAX)?;
+        within("block.surface.test", surface.test, 0, CYCLES_MAX)?;
+        within("block.surface.point", surface.point, 0, CYCLES_MAX)?;
+        within("block.surface.slot", surface.slot, 0, CYCLES_MAX)
     }
 }
 
@@ -259,6 +298,25 @@ mod tests {
         refused("domain.bytes_in", |c| c.domain.bytes_in = 65537);
         refused("domain.bytes_out", |c| c.domain.bytes_out = 65537);
         refused("block.domain.interval", |c| c.block.domain.interval = Some(0));
+        refused("esc.level_max", |c| c.esc.level_max = 16);
+        refused("esc.fixed_level", |c| (c.esc.level_max, c.esc.fixed_level) = (2, 3));
+        refused("esc.full_distance", |c| c.esc.full_distance = f64::INFINITY);
+        refused("esc.full_pixels", |c| c.esc.full_pixels = 0.0);
+        refused("esc.mu", |c| c.esc.mu = -0.5);
+        refused("esc.mu", |c| c.esc.mu = f64::NAN);
+        refused("esc.scope", |c| c.esc.scope = LevelScope::Object);
+        refused("esc.guard", |c| c.esc.guard = 21);
+        refused("esc.guard", |c| (c.position.width, c.esc.guard) = (48, 8));
+        refused("esc.parameter_bits", |c| c.esc.parameter_bits = 15);
+        refused("esc.output_values", |c| c.esc.output_values = Some(131));
+        refused("esc.width", |c| c.esc.width = 1025);
+        refused("esc.registers", |c| c.esc.registers = 65537);
+        refused("esc.register_file", |c| c.esc.register_file = 0);
+        refused("esc.bytes_out", |c| c.esc.bytes_out = 3);
+        refused("block.surface.net", |c| c.block.surface.net = 1_000_001);
+        refused("block.surface.test", |c| c.block.surface.test = 1_000_001);
+        refused("block.surface.point", |c| c.block.surface.point = 1_000_001);
+        refused("block.surface.slot", |c| c.block.surface.slot = 1_000_001);
         refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
         refused("link.header", |c| c.link.payload = 0);
         refused("link.bandwidth_mb_s", |c| c.link.bandwidth_mb_s = 0);

@@ -2,8 +2,8 @@
 
 use super::{
     Assemble, Attributes, Backface, BackfaceMethod, Blocks, Clip, Config, Domain, Emit, Engine,
-    Evaluate, Frames, Hull, Level, Link, Memory, Normals, Overflow, Position, Rounding, Scheme,
-    Termination, Tessellator, Triangles, Union, Unit, VertexShader,
+    Esc, Evaluate, Frames, Hull, Level, Link, Memory, Normals, Overflow, Position, Rounding,
+    Scheme, Termination, Tessellator, Triangles, Union, Unit, VertexShader,
 };
 
 impl Default for Config {
@@ -23,6 +23,7 @@ impl Default for Config {
             tessellator: Tessellator::default(),
             evaluate: Evaluate::default(),
             domain: Domain::default(),
+            esc: Esc::default(),
             attributes: Attributes::default(),
             emit: Emit::default(),
             vertex_shader: VertexShader::default(),

@@ -5,6 +5,7 @@
 //! none of them can know a key that the others do not. Tests hold it against the types.
 
 mod block;
+mod esc;
 
 /// A key and what is to be said of it.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +29,14 @@ const FIFO: &str =
 const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 
 /// All keys, in the order of the file: tables after plain keys, in the order of the data.
-pub const KEYS: &[Key] = &join::<{ PLAIN.len() + block::KEYS.len() }>(PLAIN, block::KEYS);
+pub const KEYS: &[Key] = {
+    const BEFORE: usize = PLAIN.len() + esc::KEYS.len();
+    const PARTS: [Key; BEFORE] = join(PLAIN, esc::KEYS);
+    &join::<{ BEFORE + block::KEYS.len() }>(&PARTS, block::KEYS)
+};
 
 const PLAIN: &[Key] = &[
-    key("unit", "the unit that runs", "hybrid, triangles, sfarti, moreton or d3d11"),
+    key("unit", "the unit that runs", "hybrid, triangles, sfarti, moreton, d3d11 or esc"),
     key("engine", "what lays time over the blocks", "timed, stepped or none"),
     key("clock_mhz", "the clock in MHz; every number of cycles is one of this clock", "1..=100000"),
     key("frames", "whether a frame waits until the one before has left", "drain or overlap"),
@@ -360,15 +365,20 @@ mod tests {
     }
 
     #[test]
-    fn every_block_has_its_six_keys_and_evaluate_one_more() {
+    fn every_block_has_its_six_keys_and_some_have_more() {
         use crate::config::block::TIMED;
         for block in TIMED {
             let prefix = format!("block.{}.", block.name());
             let keys = KEYS.iter().filter(|key| key.path.starts_with(&prefix)).count();
-            assert_eq!(keys, 6 + usize::from(prefix == "block.evaluate."), "{prefix}");
+            let more = match block.name() {
+                "evaluate" => 1,
+                "surface" => 4,
+                _ => 0,
+            };
+            assert_eq!(keys, 6 + more, "{prefix}");
         }
         let blocks = KEYS.iter().filter(|key| key.path.starts_with("block.")).count();
-        assert_eq!(blocks, 6 * TIMED.len() + 1);
+        assert_eq!(blocks, 6 * TIMED.len() + 5);
     }
 
     #[test]

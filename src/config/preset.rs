@@ -100,9 +100,9 @@ impl Preset {
             // issued one vec4 instruction a clock, so the length of a program is its interval.
             Self::Gf3_2001 => blocks.vertex_shader.fifo = 24,
             // 20 SIMDs of 16 lanes.
-            Self::Hd5870 => shader_array(&mut blocks, 20 * 16),
+            Self::Hd5870 => shader_array(&mut blocks, 20),
             // 24 SIMDs of 16 lanes.
-            Self::Hd6970 => shader_array(&mut blocks, 24 * 16),
+            Self::Hd6970 => shader_array(&mut blocks, 24),
             // The shaders are a port to an array of cores that together outrun it: one vertex a
             // cycle goes in and comes out, which is what a geometry front end hands over. Latency
             // 200: a wave of 64 takes 64 cycles to gather, then some 34 dependent instructions of
@@ -117,7 +117,8 @@ impl Preset {
 /// flatters a run in which several are busy. A lane (VLIW of 5 or 4) issues an instruction word a
 /// cycle; a program of 20 words is assumed, and 200 cycles for it with its waits, hidden by the 11
 /// threads that a lane then holds.
-fn shader_array(blocks: &mut Blocks, lanes: u32) {
+fn shader_array(blocks: &mut Blocks, simds: u32) {
+    let lanes = simds * 16;
     for shader in [&mut blocks.transform, &mut blocks.hull, &mut blocks.vertex_shader] {
         shader.lanes = lanes;
         shader.interval = WORDS;
@@ -126,6 +127,8 @@ fn shader_array(blocks: &mut Blocks, lanes: u32) {
     // A wave takes as many cycles as it has points; so many waves side by side take as many points
     // a cycle as the lanes do.
     blocks.domain.lanes = lanes / WORDS;
+    // The surface shader counts its instructions; a wave of 64 takes 4 cycles for one on 16 lanes.
+    (blocks.surface.lanes, blocks.surface.point) = (simds, WORDS);
 }
 
 /// Instruction words of a shader program.

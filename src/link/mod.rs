@@ -9,7 +9,7 @@ pub mod framing;
 pub mod schedule;
 pub mod wire;
 
-use crate::config::{Config, Link, Memory, Unit};
+use crate::config::{Config, LevelScope, Link, Memory, Unit};
 use crate::trace::command::{Attributes, Command, Draw, Points, Primitive};
 use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
@@ -84,16 +84,20 @@ impl Transfer {
 }
 
 /// What a command sends to a unit that tessellates: to one that does not choose its levels itself,
-/// those of each patch's four edges too, and no tessellation state.
+/// those of each patch's four edges too, and no tessellation state; where the driver chooses one
+/// level for an instance, that level.
 #[must_use]
-pub fn to(unit: Unit, command: &Command) -> Transfer {
-    let transfer = patches(command);
+pub fn to(config: &Config, command: &Command) -> Transfer {
+    let (unit, transfer) = (config.unit, patches(command));
     match (unit, command) {
         (Unit::Moreton, Command::Draw(draw)) => {
             let patches = draw.primitive.patches() * draw.models.len() as u64;
             Transfer { factors: patches * FACTORS * FLOAT, ..transfer }
         }
         (Unit::Moreton, Command::Tessellation(_)) => Transfer::default(),
+        (Unit::Esc, Command::Draw(draw)) if config.esc.scope == LevelScope::Object => {
+            Transfer { factors: draw.models.len() as u64 * FLOAT, ..transfer }
+        }
         (_, Command::Draw(draw)) if draw.indices.is_none() && is_indexed(unit, draw) => {
             Transfer { indices: index_bytes(draw), ..transfer }
         }

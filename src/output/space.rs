@@ -1,6 +1,8 @@
 //! Numbers of the hardware as real numbers: exact clip coordinates, and positions in world space
 //! for viewing.
 
+use crate::sink::Grid;
+use rtl_model::esc::fraction;
 use rtl_model::number::Format;
 use rtl_model::patch::{ONE, Point};
 
@@ -22,10 +24,14 @@ pub fn real(point: Point, ulp: f64) -> [f64; 4] {
     point.map(|raw| raw as f64 * ulp)
 }
 
-/// A parameter in U1.16: exact.
+/// A parameter: U1.16 is exact, a fraction the nearest double.
 #[must_use]
-pub fn parameter(raw: u32) -> f64 {
-    f64::from(raw) / f64::from(ONE)
+pub fn parameter(raw: u32, grid: Grid) -> f64 {
+    let (parts, all) = match grid {
+        Grid::Fx16 => (raw, ONE),
+        Grid::Thirds => fraction(raw),
+    };
+    f64::from(parts) / f64::from(all)
 }
 
 /// Where in the world the matrix `m`, column-major, takes a homogeneous point, to f32 precision.
@@ -57,7 +63,7 @@ pub(super) mod tests {
             near: 1,
             facing: 1,
         };
-        FrameInfo { number: 0, view }
+        FrameInfo { number: 0, view, grid: Grid::Fx16 }
     }
 
     #[test]
@@ -66,6 +72,13 @@ pub(super) mod tests {
         assert_eq!(ulp(Format { width: 8, fraction: -3 }), 8.0);
         let odd = (1 << 47) - 1;
         assert_eq!(real([odd, -odd, 0, 1], 1.0), [odd as f64, -(odd as f64), 0.0, 1.0]);
+    }
+
+    #[test]
+    fn parameters_are_what_their_grid_makes_of_them() {
+        assert_eq!([0, 21845, ONE].map(|t| parameter(t, Grid::Thirds)), [0.0, 1.0 / 3.0, 1.0]);
+        assert_eq!(parameter(21845, Grid::Fx16), 21845.0 / 65536.0);
+        assert_eq!(parameter(63_716, Grid::Thirds), 35.0 / 36.0); // 63715.6
     }
 
     #[test]

@@ -4,3 +4,4 @@
 pub mod control_point;
 pub mod domain;
 pub mod hull;
+pub mod object_level;

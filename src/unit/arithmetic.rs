@@ -12,6 +12,7 @@
 
 pub mod backface;
 mod d3d11;
+mod esc;
 mod level;
 
 use crate::config::{Arithmetic, BackfaceMethod, Config, Form, Scheme, Termination, Unit};
@@ -49,6 +50,9 @@ struct Formats {
     attribute: u64,
     /// A screen coordinate.
     screen: u64,
+    /// A coefficient of the surface shader, and its parameter.
+    net: u64,
+    parameter: u64,
     /// The order of operations of the domain shader, and its numbers.
     form: Form,
     domain: Widths,
@@ -62,6 +66,8 @@ impl Formats {
             register: w + u64::from(config.guard()) + 3,
             attribute: config.attributes.width.into(),
             screen: 16 + u64::from(config.emit.subpixel_bits),
+            net: config.net_bits().into(),
+            parameter: u64::from(config.esc.parameter_bits) + 1,
             form: config.form(),
             domain: match config.domain.arithmetic {
                 Arithmetic::F32 => Widths::F32,
@@ -162,6 +168,8 @@ pub const PIECES: &[Piece] = &[
     level::POWERS,
     level::SPLIT,
     level::FLAT,
+    esc::THIRDS,
+    esc::DISTANCE,
     Piece {
         block: Block::Place,
         meaning: "a patch's six levels, 24 bits: 8 comparisons to raise the interior's, 15 to find \
@@ -253,6 +261,15 @@ pub const PIECES: &[Piece] = &[
     d3d11::NAIVE_POINT,
     d3d11::ATTRIBUTES,
     d3d11::NORMALS,
+    esc::NET,
+    esc::RUNS,
+    esc::POINT,
+    esc::BOUNDARY,
+    esc::PIXELS,
+    esc::OBJECT,
+    esc::SLOT,
+    esc::ATTRIBUTES,
+    esc::NORMALS,
     Piece {
         block: Block::Emit,
         meaning: "a vertex divided: w > 0, x + w and w - y, both times the viewport's size (15 \

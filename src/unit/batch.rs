@@ -16,6 +16,7 @@ use super::edges::{EdgeDatabase, Held};
 use super::frame::FrameState;
 use super::pipeline::{Input, Make, Pipeline};
 use super::union::{Pass, Share, Shared, Site};
+use super::wave::Former;
 use crate::config::Config;
 use crate::error::Result;
 use crate::sink::Sink;
@@ -23,7 +24,7 @@ use glam::Mat4;
 use rayon::prelude::*;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::level::State;
-use rtl_model::patch::Patch;
+use rtl_model::patch::{Patch, View};
 use rtl_model::port::Quantised;
 use std::ops::Range;
 use std::sync::Arc;
@@ -90,11 +91,18 @@ pub(super) struct DrawState {
     pub(super) shared: Option<Shared>,
     /// Bytes that a hull shader hands on for a patch (unit `d3d11`).
     pub(super) hull_bytes: u32,
+    /// The level that the driver chose for it, where it does (unit `esc`).
+    pub(super) object_level: Option<u8>,
 }
 
 impl DrawState {
     /// What a pipeline is told of each of its patches, without the patch itself.
-    fn input<'a>(&'a self, patch: &'a Patch, shaded: &'a [[f32; 4]; 16]) -> Input<'a> {
+    fn input<'a>(
+        &'a self,
+        patch: &'a Patch,
+        shaded: &'a [[f32; 4]; 16],
+        view: &'a View,
+    ) -> Input<'a> {
         Input {
             patch,
             seen: patch,
@@ -103,6 +111,9 @@ impl DrawState {
             share: None,
             components: self.attributes.as_ref().map_or(0, |a| a.table.components() as u64),
             hull_bytes: self.hull_bytes,
+            object: None,
+            view,
+            object_level: self.object_level,
         }
     }
 
@@ -140,6 +151,8 @@ pub(super) struct Batch {
     quantised: Vec<Quantised>,
     /// The same points in clip space, where the unit works in object space: what the driver sees.
     seen: Vec<Quantised>,
+    /// The same points in object space, where the unit wants them too.
+    object: Vec<Quantised>,
     /// The same points as the shaders have them, where the unit goes on in f32.
     clip: Vec<[f32; 4]>,
     spans: Vec<Span>,
@@ -237,13 +250,14 @@ impl Batch {
         let mut work = Work::<M> { batch: self, config, frame, measured: Vec::new() };
         work.measure(counters);
         let (batch, edges_now) = (&*self, &mut edges);
-        let mut timed = Timing::new(batch, clock, edges_now);
+        let mut timed = Timing::new(batch, config, clock, edges_now);
         let tallies = match sink {
             None => work.count(counters, &mut timed),
             Some(sink) => work.stream(sink, counters, &mut timed)?,
         };
-        timed.commands();
+        timed.finish();
         let Held { shared, entries } = timed.held;
+        counters.merge(&timed.waves.counters);
         counters.add(Counter::EvaluateShared, shared);
         counters.add(Counter::EvaluateHeldPeak, entries);
         self.edges = edges;
@@ -264,29 +278,53 @@ struct Timing<'a, T: Flow> {
     edges: &'a mut EdgeDatabase,
     /// What the database did for all patches, and the most that it held.
     held: Held,
+    waves: Former<T>,
     patches: usize,
     commands: usize,
 }
 
 impl<'a, T: Flow> Timing<'a, T> {
-    fn new(batch: &'a Batch, clock: &'a mut Clock<T>, edges: &'a mut EdgeDatabase) -> Self {
-        Self { batch, clock, edges, held: Held::default(), patches: 0, commands: 0 }
+    fn new(
+        batch: &'a Batch,
+        config: &Config,
+        clock: &'a mut Clock<T>,
+        edges: &'a mut EdgeDatabase,
+    ) -> Self {
+        let (held, waves) = (Held::default(), Former::new(config));
+        Self { batch, clock, edges, held, waves, patches: 0, commands: 0 }
     }
 
     fn patches(&mut self, done: &[Done<T>]) {
         for &work in done {
-            self.commands();
             let patch = &self.batch.patches[self.patches];
             let draw = &self.batch.draws[patch.draw as usize];
-            if let Some(size) = draw.edges {
+            if self.waves.ends_at(draw.number) {
+                self.complete();
+            }
+            self.commands();
+            if let (true, Some(size)) = (T::SHARES_EDGES, draw.edges) {
                 let kept = (work.fate == Fate::Kept).then(|| work.lists.edges());
                 let held = self.edges.pass(size, patch.site, kept);
                 self.held.shared += held.shared;
                 self.held.entries = self.held.entries.max(held.entries);
             }
-            self.clock.patch(patch.fetch, work, draw.vertex_bytes);
+            let waiting = (patch.fetch, work, draw.vertex_bytes);
+            let clock = &mut *self.clock;
+            self.waves.accept(draw.number, waiting, &mut |(f, w, bytes)| clock.patch(f, w, bytes));
             self.patches += 1;
         }
+    }
+
+    /// No patch follows that the last wave could take in.
+    fn complete(&mut self) {
+        let clock = &mut *self.clock;
+        self.waves.finish(&mut |(fetch, work, bytes)| clock.patch(fetch, work, bytes));
+    }
+
+    /// Nothing follows.
+    fn finish(&mut self) {
+        self.complete();
+        self.commands();
     }
 
     /// Those that come before the next patch.
@@ -322,7 +360,8 @@ impl<M: Make> Work<'_, M> {
                 let shared = draw.shared.as_ref().filter(|_| draw.measures())?;
                 let patch = self.gather(pending, draw, &self.batch.quantised);
                 let share = Some(Share { shared, site: pending.site });
-                let input = Input { share, ..draw.input(&patch, &[[0.0; 4]; 16]) };
+                let view = &self.frame.view;
+                let input = Input { share, ..draw.input(&patch, &[[0.0; 4]; 16], view) };
                 pipeline.measure(&input);
                 Some(pipeline.work)
             };
@@ -405,7 +444,14 @@ impl<M: Make> Work<'_, M> {
             let seen = seen.as_ref().unwrap_or(&patch);
             let shaded = pending.indices.map(|i| batch.clip.get(i as usize).copied());
             let shaded = shaded.map(Option::unwrap_or_default);
-            let input = Input { seen, share, ..draw.input(&patch, &shaded) };
+            let object = (!batch.object.is_empty())
+                .then(|| pending.indices.map(|i| batch.object[i as usize].point));
+            let input = Input {
+                seen,
+                share,
+                object: object.as_ref(),
+                ..draw.input(&patch, &shaded, &self.frame.view)
+            };
             if pipeline.accept(&input) {
                 pieces.tally(draw.number, pipeline);
                 if keep {

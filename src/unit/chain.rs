@@ -6,8 +6,10 @@
 
 mod block;
 mod d3d11;
+mod esc;
 mod surface;
 
+use super::wave;
 use crate::config::{Channels, Config, Unit};
 use crate::link::schedule::{LinkSchedule, MemorySchedule, Parcel};
 use rtl_model::counter::Block as Name;
@@ -73,6 +75,7 @@ use chain_of;
 use d3d11::Wave;
 
 pub(super) use d3d11::Pattern;
+pub(super) use esc::Meshed;
 
 /// Levels of a patch: four edges and two interior directions.
 const LEVELS: u16 = 6;
@@ -116,6 +119,11 @@ impl<T: Flow> Work<T> {
     pub(super) fn made(&self) -> [u64; 2] {
         if self.fate == Fate::Kept { self.lists.made() } else { [0; 2] }
     }
+
+    /// What it takes of a wave of the surface shader, where it is tessellated by one.
+    pub(super) fn lane(&self) -> Option<wave::Lane> {
+        if self.fate == Fate::Kept { self.lists.lane() } else { None }
+    }
 }
 
 /// What the triangles of a patch depend on, and through it the chain of units whose patches have
@@ -123,6 +131,8 @@ impl<T: Flow> Work<T> {
 pub(super) trait Flow: Copy + Default + Eq + Send + Sync + fmt::Debug + 'static {
     /// A block of the chain.
     type Stage: Block<Token = Token<Self>>;
+    /// Whether its vertices on shared edges are counted.
+    const SHARES_EDGES: bool;
 
     /// The block of that name.
     ///
@@ -135,6 +145,14 @@ pub(super) trait Flow: Copy + Default + Eq + Send + Sync + fmt::Debug + 'static 
 
     /// Vertices of the edges v0, u1, v1, u0, each with both its ends.
     fn edges(&self) -> [u64; 4];
+
+    /// What it takes of a wave of the surface shader, where there is one.
+    fn lane(&self) -> Option<wave::Lane> {
+        None
+    }
+
+    /// It completes a wave.
+    fn close(&mut self, _wave: wave::Wave) {}
 }
 
 /// Levels that a criterion computes for a patch.
@@ -166,12 +184,16 @@ pub(super) enum Token<T> {
     Vertex,
     /// Connectivity to the domain shader and on to emit (unit `d3d11`).
     Wave(Wave),
+    /// Group to the surface shader and on to emit (unit `esc`).
+    Invocations(wave::Wave),
 }
 
 /// The timed blocks of a unit, in the order of the data.
 pub(super) fn blocks(unit: Unit) -> &'static [Name] {
     match unit {
-        Unit::Hybrid | Unit::Sfarti | Unit::Moreton => &super::blocks(unit)[1..], // all but trace
+        Unit::Hybrid | Unit::Sfarti | Unit::Moreton | Unit::Esc => {
+            &super::blocks(unit)[1..] // all but trace
+        }
         Unit::D3d11 => &[
             Name::Link,
             Name::Memory,

@@ -1,7 +1,7 @@
 //! The clock of a run: what the host sends goes in, in the order of the trace; the engine that the
 //! configuration names times it.
 
-use super::chain::{self, Flow, Pattern, Token, Work};
+use super::chain::{self, Flow, Meshed, Pattern, Token, Work};
 use crate::config::{Config, Engine, TransferMode};
 use crate::link::Transfer;
 use crate::link::framing::Pieces;
@@ -108,6 +108,7 @@ pub(super) enum Recorded {
     Fractional(Tokens<Segments>),
     Dyadic(Tokens<Lists>),
     D3d11(Tokens<Pattern>),
+    Esc(Tokens<Meshed>),
 }
 
 impl Recording {
@@ -119,6 +120,7 @@ impl Recording {
             Recorded::Fractional(tokens) => tokens.replay(config),
             Recorded::Dyadic(tokens) => tokens.replay(config),
             Recorded::D3d11(tokens) => tokens.replay(config),
+            Recorded::Esc(tokens) => tokens.replay(config),
         }
     }
 
@@ -129,6 +131,7 @@ impl Recording {
             Recorded::Fractional(tokens) => tokens.len(),
             Recorded::Dyadic(tokens) => tokens.len(),
             Recorded::D3d11(tokens) => tokens.len(),
+            Recorded::Esc(tokens) => tokens.len(),
         }
     }
 }

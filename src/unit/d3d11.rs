@@ -23,7 +23,6 @@ use crate::shader::hull::{self, Adaptive};
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::d3d11::Factors;
 use rtl_model::level::{self, Criterion, Events, State};
-use rtl_model::number::Format;
 use rtl_model::patch::{Level, Levels, Triangle, Vertex};
 
 use shape::Shape;
@@ -54,7 +53,7 @@ impl Make for D3d11 {
                 candidates: config.hull.candidates,
                 pixels: config.hull.pixels as f32,
                 viewport: frame.view.viewport,
-                near: real(frame.view.near, frame.view.position),
+                near: frame.near(),
             })
         };
         Self {
@@ -73,11 +72,12 @@ impl Make for D3d11 {
     }
 
     fn place(&mut self, work: Placing<'_>, counters: &mut Counters) -> Placed<Pattern> {
-        let Placing { view, input, .. } = work;
+        let Input { seen, view, .. } = *work.input;
+        let input = work.input;
         let state = reachable(input.state, self.partitioning);
         let (factors, events, criterion) = match &self.adaptive {
             None => {
-                let (levels, events) = level::accept(input.seen, view, &state);
+                let (levels, events) = level::accept(seen, view, &state);
                 (in_order(&levels), events, state.criterion)
             }
             Some(adaptive) => {
@@ -96,22 +96,17 @@ impl Make for D3d11 {
 
     fn shape(
         &mut self,
-        lists: Pattern,
+        lists: &mut Pattern,
         input: &Input<'_>,
         vertices: &mut Vec<Vertex>,
         counters: &mut Counters,
     ) -> u64 {
-        self.shape.accept(&lists, input, vertices, counters)
+        self.shape.accept(lists, input, vertices, counters)
     }
 
     fn triangles(&self) -> &[Triangle] {
         self.shape.triangles()
     }
-}
-
-/// A w of the position format as a shader has it. Rounding moves a threshold, and no vertex.
-fn real(raw: i64, format: Format) -> f32 {
-    (raw as f64 * f64::from(-format.fraction).exp2()) as f32
 }
 
 /// The tessellation state, within what a partitioning reaches.

@@ -6,6 +6,7 @@
 use super::attributes::Corners;
 use super::batch::DrawState;
 use super::d3d11;
+use super::esc;
 use super::fetch::{Brought, Instance, Source};
 use super::pipeline::Make;
 use super::run::Run;
@@ -72,9 +73,11 @@ impl<M: Make> Run<'_, M> {
             edges: (surfaces && draw.primitive.shares_edges()).then(|| draw.primitive.size()),
             shared: None,
             hull_bytes: d3d11::hull_bytes(source.components(), self.config) as u32, // < 2^16
+            object_level: None,
         };
         // What the first of two passes takes.
         let bare = Source { points: source.points.clone(), attributes: None, ..source };
+        let bounds = esc::bounds(&source.points.source, self.config)?;
         // The spans of the instance before, while the batch holds all of it.
         let mut whole = None;
         for model in &draw.models {
@@ -84,6 +87,9 @@ impl<M: Make> Run<'_, M> {
             }
             let model = Mat4::from_cols_array(model);
             let matrix = control_point::concatenate(&frame.clip_from_world, &model);
+            state.object_level = bounds
+                .as_ref()
+                .map(|bounds| esc::object_level(bounds, &matrix, self.config, &frame));
             if !self.unites(draw.primitive) {
                 whole = self.pass(&source, Instance::new(matrix, state, self.config), whole)?;
                 continue;

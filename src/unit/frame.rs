@@ -60,6 +60,14 @@ impl FrameState {
         Ok(Self { view, clip_from_world, object, to_world: exact.inverse().to_cols_array() })
     }
 
+    /// The near threshold as a shader or the driver has it. Rounding moves a threshold, and no
+    /// vertex.
+    #[must_use]
+    pub(super) fn near(&self) -> f32 {
+        let View { near, position, .. } = self.view;
+        (near as f64 * f64::from(-position.fraction).exp2()) as f32
+    }
+
     /// The format of what the unit works on.
     #[must_use]
     pub fn position(&self, config: &Config) -> Format {

@@ -20,7 +20,7 @@ impl Front for Hybrid {
     const CULLS: bool = true;
 
     fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
-        let (levels, events) = level::accept(work.input.seen, work.view, work.input.state);
+        let (levels, events) = level::accept(work.input.seen, work.input.view, work.input.state);
         placement.set(&levels);
         Placed {
             lists: placement.segments(),

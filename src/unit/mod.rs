@@ -4,9 +4,9 @@
 //! commands, `frame` derives what is constant over a frame, `draw` and `fetch` say where a draw's
 //! patches get their points, `batch` collects patches and spreads them over the threads, `pipeline`
 //! takes one patch through the blocks: through lists of parameters (`surface`), of which `hybrid`,
-//! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11`. `union` holds the
-//! lists that patches of a primitive share, `edges` what it keeps of their edges; `chain` and
-//! `clock` put it all on the clock; `tokens` and `arithmetic` say from a frame's counters what
+//! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11` or `esc`. `union` holds the
+//! lists that patches of a primitive share, `edges` what it keeps of their edges; `wave` gathers
+//! patches that a surface shader makes side by side; `chain` and `clock` put it all on the clock; `tokens` and `arithmetic` say from a frame's counters what
 //! flowed and what it took.
 
 pub mod arithmetic;
@@ -17,6 +17,7 @@ mod clock;
 mod d3d11;
 mod draw;
 mod edges;
+mod esc;
 mod fetch;
 mod frame;
 mod hybrid;
@@ -29,6 +30,7 @@ mod state;
 mod surface;
 mod tokens;
 mod union;
+mod wave;
 
 use crate::config::{Config, Unit};
 use crate::error::Result;
@@ -43,6 +45,7 @@ pub use frame::FrameState;
 
 use clock::{Recorded, Tokens};
 use d3d11::D3d11;
+use esc::Esc;
 use hybrid::Hybrid;
 use moreton::Moreton;
 use pipeline::Make;
@@ -71,6 +74,7 @@ pub fn simulate(
         Unit::Sfarti => carry_out::<Surface<Sfarti>>(commands, config, sink),
         Unit::Moreton => carry_out::<Surface<Moreton>>(commands, config, sink),
         Unit::D3d11 => carry_out::<D3d11>(commands, config, sink),
+        Unit::Esc => carry_out::<Esc>(commands, config, sink),
     }
 }
 
@@ -105,6 +109,7 @@ pub fn record(
         Unit::Sfarti => Recorded::Dyadic(recorded::<Surface<Sfarti>>(commands, config)?),
         Unit::Moreton => Recorded::Fractional(recorded::<Surface<Moreton>>(commands, config)?),
         Unit::D3d11 => Recorded::D3d11(recorded::<D3d11>(commands, config)?),
+        Unit::Esc => Recorded::Esc(recorded::<Esc>(commands, config)?),
     }))
 }
 
@@ -165,6 +170,20 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
             Block::Points,
             Block::Connect,
             Block::Domain,
+            Block::Emit,
+        ],
+        Unit::Esc => &[
+            Block::Trace,
+            Block::Link,
+            Block::Memory,
+            Block::Transform,
+            Block::Port,
+            Block::Assemble,
+            Block::Clip,
+            Block::Backface,
+            Block::Level,
+            Block::Group,
+            Block::Surface,
             Block::Emit,
         ],
         Unit::Triangles => &[Block::Trace, Block::Link, Block::Emit, Block::VertexShader],

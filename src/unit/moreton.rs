@@ -26,7 +26,7 @@ impl Front for Moreton {
     const CULLS: bool = false;
 
     fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
-        let (levels, events) = level::accept(work.input.seen, work.view, work.input.state);
+        let (levels, events) = level::accept(work.input.seen, work.input.view, work.input.state);
         let [v0, u1, v1, u0] = levels.edges;
         placement.set(&Levels { interior: [v0.max(v1), u1.max(u0)], ..levels });
         let reciprocals = placement.reciprocals() as u8; // at most 6

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!   patch ─► clip ─► backface ─► [levels, points, triangles] ─► emit ─► vertex shader
-//!                                 `surface`, or `d3d11`
+//!                                 `surface`, `d3d11` or `esc`
 //! ```
 
 use super::chain::{Fate, Flow, Work};
@@ -15,7 +15,7 @@ use rtl_model::clip;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::emit::{self, Screen};
 use rtl_model::level::{Criterion, Events, State};
-use rtl_model::patch::{Patch, Triangle, Vertex, View};
+use rtl_model::patch::{Patch, Point, Triangle, Vertex, View};
 
 /// What a unit makes of a patch that is in sight.
 pub(super) trait Make: Send + 'static {
@@ -42,7 +42,7 @@ pub(super) trait Make: Send + 'static {
     /// leave for emit.
     fn shape(
         &mut self,
-        lists: Self::Lists,
+        lists: &mut Self::Lists,
         input: &Input<'_>,
         vertices: &mut Vec<Vertex>,
         counters: &mut Counters,
@@ -50,6 +50,11 @@ pub(super) trait Make: Send + 'static {
 
     /// Triangles of the last patch.
     fn triangles(&self) -> &[Triangle];
+
+    /// Whether triangles leave as indices, and not as strips of vertices.
+    fn is_indexed(&self) -> bool {
+        true
+    }
 }
 
 /// A patch, and what its draw says of it.
@@ -68,12 +73,17 @@ pub(super) struct Input<'a> {
     pub(super) components: u64,
     /// Bytes that a hull shader hands on for it.
     pub(super) hull_bytes: u32,
+    /// Its control points in object space, where a unit wants them beside those in clip space.
+    pub(super) object: Option<&'a [Point; 16]>,
+    /// The frame's camera.
+    pub(super) view: &'a View,
+    /// The level of resolution that the driver chose for all of its draw (unit `esc`).
+    pub(super) object_level: Option<u8>,
 }
 
 /// What levels are chosen from.
 pub(super) struct Placing<'a> {
     pub(super) config: &'a Config,
-    pub(super) view: &'a View,
     pub(super) input: &'a Input<'a>,
 }
 
@@ -135,7 +145,7 @@ impl<'a, M: Make> Pipeline<'a, M> {
         }
         self.work.fate = Fate::Kept;
         self.place(input);
-        let lists = self.work.lists;
+        let lists = &mut self.work.lists;
         let leave = self.make.shape(lists, input, &mut self.vertices, &mut self.counters);
         self.send(leave, input.components);
         true
@@ -176,7 +186,7 @@ impl<'a, M: Make> Pipeline<'a, M> {
 
     /// Levels and places.
     fn place(&mut self, input: &Input<'_>) {
-        let placing = Placing { config: self.config, view: &self.view, input };
+        let placing = Placing { config: self.config, input };
         let placed = self.make.place(placing, &mut self.counters);
         self.work.levels = placed.levels;
         self.work.reciprocals = placed.reciprocals;
@@ -211,7 +221,8 @@ impl<'a, M: Make> Pipeline<'a, M> {
             let homogeneous = emit::accept(&self.vertices, &self.view, settings, &mut self.screen);
             counters.add(Counter::EmitToClipper, homogeneous);
         }
-        let indices = 3 * triangles * u64::from(emit.index_bytes);
+        let indexed = u64::from(self.make.is_indexed());
+        let indices = 3 * triangles * indexed * u64::from(emit.index_bytes);
         let attributes = vertices * components * self.config.attributes.component_bytes();
         let bytes = vertices * u64::from(emit.vertex_bytes) + attributes + indices;
         counters.add(Counter::EmitVertices, vertices);

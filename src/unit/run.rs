@@ -6,11 +6,11 @@ use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
 use super::pipeline::Make;
 use super::{blocks, chain, work};
-use crate::config::Config;
+use crate::config::{Config, Unit};
 use crate::error::Result;
 use crate::link::{self, Transfer};
 use crate::report::{Frame as FrameReport, Report};
-use crate::sink::{FrameInfo, Sink};
+use crate::sink::{FrameInfo, Grid, Sink};
 use crate::trace::command::{Command, Frame, Points, Tessellation};
 use rtl_model::counter::standard::{Stage, Work};
 use rtl_model::counter::{Counter, Counters};
@@ -81,7 +81,7 @@ impl<'a, M: Make> Run<'a, M> {
             self.end_frame()?;
         }
         if !self.config.unit.host_tessellates() {
-            let transfer = link::to(self.config.unit, command);
+            let transfer = link::to(self.config, command);
             transfer.count(&self.config.link, &mut self.counters);
             let written = link::write_resident(command, self.config, &mut self.counters);
             self.send(transfer.payload(), written)?;
@@ -147,7 +147,7 @@ impl<'a, M: Make> Run<'a, M> {
         let number = self.frames.len() as u64;
         if self.sink.wants(number) {
             let view = View { position: state.position(self.config), ..state.view };
-            self.sink.frame(&FrameInfo { number, view })?;
+            self.sink.frame(&FrameInfo { number, view, grid: grid(self.config.unit) })?;
         }
         self.counters.add(Counter::TraceFrames, 1);
         self.frame = Some(state);
@@ -213,4 +213,9 @@ impl<'a, M: Make> Run<'a, M> {
         }
         Ok(())
     }
+}
+
+/// What parameters of the unit's vertices stand for.
+fn grid(unit: Unit) -> Grid {
+    if unit == Unit::Esc { Grid::Thirds } else { Grid::Fx16 }
 }

@@ -54,7 +54,8 @@ impl Front for Sfarti {
 
 /// The lists that the patch asks for by itself.
 fn choose(work: &Placing<'_>) -> Placed<Lists> {
-    let &Placing { config, view, input } = work;
+    let &Placing { config, input } = work;
+    let view = input.view;
     let state = input.state;
     let termination = config.level.termination;
     let (lists, events) = level::subdivide(input.seen, view, state, termination);

@@ -73,15 +73,15 @@ impl<F: Front> Make for Surface<F> {
 
     fn shape(
         &mut self,
-        lists: F::Lists,
+        lists: &mut F::Lists,
         input: &Input<'_>,
         vertices: &mut Vec<Vertex>,
         counters: &mut Counters,
     ) -> u64 {
         let patch = input.patch;
         let cost = self.evaluate.accept(patch, &self.placement, vertices);
-        let triangles = self.stitch.accept(lists);
-        let degenerate = self.degenerate.count(&lists, vertices, triangles);
+        let triangles = self.stitch.accept(*lists);
+        let degenerate = self.degenerate.count(lists, vertices, triangles);
         let count = vertices.len() as u64;
         counters.add(Counter::EvaluateInvocations, cost.invocations);
         counters.add(Counter::EvaluateVertices, count);

@@ -20,6 +20,7 @@ pub(super) fn of(unit: Unit, block: Block, counters: &Counters, sent: u64) -> [u
         Unit::Hybrid | Unit::Sfarti | Unit::Moreton => patches(block, get, sent),
         Unit::Triangles => triangles(block, get, sent),
         Unit::D3d11 => shaders(block, get, sent),
+        Unit::Esc => surfaces(block, get, sent),
     }
 }
 
@@ -61,6 +62,16 @@ fn shaders(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
         Block::Connect => [kept, waves],
         Block::Domain | Block::Emit => [waves; 2],
         _ => [0; 2], // not of the chain
+    }
+}
+
+/// Unit `esc`: patches until waves are formed, waves from there on.
+fn surfaces(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
+    let waves = get(C::GroupWaves);
+    match block {
+        Block::Group => [get(C::LevelPatches), waves],
+        Block::Surface | Block::Emit => [waves; 2],
+        _ => patches(block, get, sent),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The two criteria that look at pixels: lengths of differences between projected control points,
 //! and levels from them, all in integers and rounded up, so that a bound stays a bound.
 
-use super::{Asked, Pixel, State, clamp};
+use super::{Asked, Lengths, Pixel, State, clamp};
 use crate::number::sqrt_ceil;
 use crate::patch::EDGES;
 
@@ -15,20 +15,29 @@ pub(super) const ROWS: [[usize; 4]; 4] =
 pub(super) const COLUMNS: [[usize; 4]; 4] =
     [[0, 4, 8, 12], [1, 5, 9, 13], [2, 6, 10, 14], [3, 7, 11, 15]];
 
-/// Lengths of control polygons over `pixels` (UQ16.16).
-pub(super) fn edge_length(points: &[Pixel; 16], pixels: u32) -> Asked {
-    let level = |line: [usize; 4]| {
+/// Lengths of control polygons: of the edges, and the longest rows and columns.
+pub(super) fn lengths(points: &[Pixel; 16]) -> Lengths {
+    let length = |line: [usize; 4]| {
         let mut length = 0; // ulps of 2^-16 pixels
         for pair in line.windows(2) {
             let ([ax, ay], [bx, by]) = (points[pair[0]]?, points[pair[1]]?);
-            length += norm(bx - ax, by - ay);
+            length += norm(bx - ax, by - ay) as u64;
         }
-        Some((length << 16).div_ceil(u128::from(pixels)) as u64)
+        Some(length)
     };
-    Asked {
-        edges: EDGES.map(level),
-        interior: [ROWS, COLUMNS].map(|lines| largest(lines.map(level))),
+    Lengths {
+        edges: EDGES.map(length),
+        interior: [ROWS, COLUMNS].map(|lines| largest(lines.map(length))),
     }
+}
+
+/// Lengths over `pixels` (UQ16.16).
+pub(super) fn edge_length(Lengths { edges, interior }: Lengths, pixels: u32) -> Asked {
+    let level = |length: Option<u64>| {
+        let quotient = (u128::from(length?) << 16).div_ceil(u128::from(pixels));
+        Some(quotient as u64)
+    };
+    Asked { edges: edges.map(level), interior: interior.map(level) }
 }
 
 /// Levels that keep boundary curves and interior within `pixels` (UQ16.16).

@@ -11,6 +11,8 @@ const EVALUATE: &str = "2: one patch runs while the next one's first curve is se
 const HULL: &str = "16: 17 threads each, so many patches fill the program's 200 cycles";
 const FACTORS: &str = "4: six factors each fill the pipeline";
 const PATTERN: &str = "2: one patch is walked while the next one arrives";
+/// A token is a wave there.
+const SURFACE: &str = "as many waves as esc.register_file holds";
 const ORDERS: &str = "first_free or round_robin";
 
 /// The keys of the blocks, in the order of the data. Paths and meanings must be joined before the
@@ -21,7 +23,7 @@ macro_rules! keys {
         latency: $latency:literal $(absent $no_latency:expr)?,
         in_flight: $in_flight:literal $(that is $few:expr)?,
         fifo: $fifo:literal
-        $(, $extra:expr)?
+        $(, $extra:expr)*
     })*) => {
         &[$(
             perhaps(
@@ -53,7 +55,7 @@ macro_rules! keys {
                 concat!("entries of the FIFO before the block: ", $fifo),
                 FIFO,
             ),
-            $($extra,)?
+            $($extra,)*
         )*]
     };
 }
@@ -167,9 +169,44 @@ pub(super) const KEYS: &[Key] = keys! {
         in_flight: "4",
         fifo: "waves"
     }
+    "group" {
+        interval: "an item is a patch that joins a wave",
+        latency: "one write",
+        in_flight: "2",
+        fifo: "patches"
+    }
+    "surface" {
+        interval: "an item is an instruction of a wave: 64 invocations on 16 lanes",
+        latency: "from a wave's last instruction to its output, hidden by other waves",
+        in_flight: "10" that is SURFACE,
+        fifo: "waves",
+        key(
+            "block.surface.net",
+            "instructions of a vec4 for [N][B][M]^T: 8 products of 4 x 4 by a vec4 of columns, \
+             shifts and additions each",
+            CYCLES,
+        ),
+        key(
+            "block.surface.test",
+            "instructions of a distance test besides its point: an interpolation, two \
+             projections with a reciprocal each, a squared length",
+            CYCLES,
+        ),
+        key(
+            "block.surface.point",
+            "instructions of a point: 15 multiply-adds by Horner, and rounding; presets hd5870 \
+             and hd6970: 20, the length of all their programs",
+            CYCLES,
+        ),
+        key(
+            "block.surface.slot",
+            "instructions of a slot of a strip: the walk, the comparison, the output",
+            CYCLES,
+        )
+    }
     "emit" {
-        interval: "an item is a vertex (a divide), or a triangle that brings none; unit d3d11: of \
-                   a wave its points or its triangles, whichever are more",
+        interval: "an item is a vertex (a divide), or a triangle that brings none; units d3d11 and \
+                   esc: of a wave its points or its triangles, whichever are more",
         latency: "a pipelined reciprocal",
         in_flight: "17",
         fifo: "vertices and triangles"

@@ -138,17 +138,31 @@ fn lines(runs: &[Seen<'_>]) -> Vec<Line> {
         lines.push(each("domain shader, in", &|run| run.sum(Block::Domain, "bytes.in.")));
         lines.push(total("  out", Block::Domain, C::DomainBytesOut));
     }
+    let surfaces = runs.iter().any(|run| run.has(Block::Surface));
+    if surfaces {
+        lines.push(heading("bytes of the surface shader"));
+        lines.push(total("in", Block::Surface, C::SurfaceBytesIn));
+        lines.push(total("out", Block::Surface, C::SurfaceBytesOut));
+    }
     lines.push(heading("invocations"));
-    let either = |label: &str, [a, b]: [(Block, Counter); 2]| {
-        each(label, &|run: &Seen<'_>| run.total(a.0, a.1).or_else(|| run.total(b.0, b.1)))
+    let either = |label: &str, counters: &[(Block, Counter)]| {
+        each(label, &|run: &Seen<'_>| counters.iter().find_map(|&(block, c)| run.total(block, c)))
     };
     let transform = (Block::Transform, C::TransformInvocations);
-    lines.push(either("control-point shader", [transform, (Block::Hull, C::HullThreads)]));
+    lines.push(either("control-point shader", &[transform, (Block::Hull, C::HullThreads)]));
     if shaders {
         lines.push(total("patch-constant function", Block::Hull, C::HullInvocations));
     }
-    let evaluate = (Block::Evaluate, C::EvaluateInvocations);
-    lines.push(either("points evaluated", [evaluate, (Block::Domain, C::DomainInvocations)]));
+    if surfaces {
+        lines.push(total("surface shader", Block::Surface, C::SurfaceInvocations));
+        lines.push(total("tests", Block::Surface, C::SurfaceTests));
+    }
+    let points = [
+        (Block::Evaluate, C::EvaluateInvocations),
+        (Block::Domain, C::DomainInvocations),
+        (Block::Surface, C::SurfaceEvaluations),
+    ];
+    lines.push(either("points evaluated", &points));
     lines.push(total("vertex shader", Block::VertexShader, C::VertexShaderInvocations));
     lines.push(heading("made"));
     lines.push(each("patches tessellated", &|run| run.tessellated()));

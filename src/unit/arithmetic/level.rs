@@ -99,7 +99,7 @@ fn project(f: Formats) -> Ops {
 }
 
 /// A point whose coordinates have `w` bits.
-fn point(w: u64) -> Ops {
+pub(super) fn point(w: u64) -> Ops {
     let pixel = Ops::default().muls(1, w, 15).with(1, quotient(w + 29, w, PIXEL));
     Ops::default().compares(2, w).with(1, reciprocal(w)).with(2, pixel)
 }

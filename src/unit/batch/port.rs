@@ -37,6 +37,12 @@ impl Batch {
             self.port(config, frame.view.position, true, &mut quantised)
         };
         self.quantised = quantised;
+        if config.unit == Unit::Esc && config.esc.tests_in_object_space() {
+            let mut object = std::mem::take(&mut self.object);
+            let [.., saturated] = self.port(config, frame.object, false, &mut object);
+            self.object = object;
+            counters.add(Counter::PortObjectSaturated, saturated);
+        }
         counters.add(Counter::PortPoints, points);
         counters.add(Counter::PortOverflows, overflows);
         counters.add(Counter::PortSaturated, saturated);

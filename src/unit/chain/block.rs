@@ -4,7 +4,7 @@
 //! A block takes the one kind of token that its neighbour upstream gives; another one means that
 //! the chain is wired wrongly, and ends the program.
 
-use super::{Flow, Token};
+use super::{Fate, Flow, Token};
 use crate::config::{BlockCosts, Channels, Config};
 use crate::link::schedule::{LinkSchedule, MemorySchedule};
 use crate::link::wire::Wire;
@@ -24,8 +24,8 @@ impl Steady {
     }
 
     /// So many items one after another.
-    pub(super) fn cost(&self, items: u16) -> Cost {
-        let items = u64::from(items.max(1));
+    pub(super) fn cost(&self, items: u64) -> Cost {
+        let items = items.max(1);
         Cost {
             interval: items * self.interval,
             latency: (items - 1) * self.interval + self.latency,
@@ -160,6 +160,42 @@ impl<T: Flow> Step<T> for Assemble {
             out.emit(Token::Patch(work), cost.latency);
         }
         cost
+    }
+}
+
+/// Trivial clipping, and whether it is enabled.
+#[derive(Clone, Debug)]
+pub(in crate::unit) struct Clip(pub(super) Steady, pub(super) bool);
+
+impl<T: Flow> Step<T> for Clip {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        let cost = if self.1 { self.0.cost(1) } else { self.0.idle() };
+        if work.fate == Fate::Clipped { cost } else { one(token, cost, out) }
+    }
+}
+
+/// Back-face removal.
+#[derive(Clone, Debug)]
+pub(in crate::unit) struct Backface(pub(super) Steady);
+
+impl<T: Flow> Step<T> for Backface {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        let cost = if work.tested { self.0.cost(1) } else { self.0.idle() };
+        if work.fate == Fate::Culled { cost } else { one(token, cost, out) }
+    }
+}
+
+/// Levels.
+#[derive(Clone, Debug)]
+pub(in crate::unit) struct Level(pub(super) Steady);
+
+impl<T: Flow> Step<T> for Level {
+    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
+        let Token::Patch(work) = token else { misled(token) };
+        let cost = if work.levels > 0 { self.0.cost(work.levels.into()) } else { self.0.idle() };
+        one(token, cost, out)
     }
 }
 

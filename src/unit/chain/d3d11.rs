@@ -50,6 +50,7 @@ chain_of! {
 
 impl Flow for Pattern {
     type Stage = Stage;
+    const SHARES_EDGES: bool = false;
 
     fn stage(block: Name, config: &Config) -> Stage {
         let Some(costs) = config.costs(block) else { return Stage::begin(block, config) };
@@ -97,7 +98,7 @@ pub(in crate::unit) struct Hull {
 impl Step<Pattern> for Hull {
     fn accept(&mut self, token: &Token<Pattern>, out: &mut impl Emit<Token<Pattern>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
-        let mut cost = self.steady.cost(THREADS);
+        let mut cost = self.steady.cost(THREADS.into());
         if let Some(channel) = &mut self.channel {
             // Written behind the shader: it takes the next patch when the last one's is through.
             let written = channel.write(work.lists.moved(self.burst));
@@ -119,7 +120,7 @@ pub(in crate::unit) struct Factors(Steady);
 impl Step<Pattern> for Factors {
     fn accept(&mut self, token: &Token<Pattern>, out: &mut impl Emit<Token<Pattern>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
-        let cost = self.0.cost(FACTORS);
+        let cost = self.0.cost(FACTORS.into());
         if work.fate == Fate::Kept { one(token, cost, out) } else { cost }
     }
 }
@@ -131,7 +132,7 @@ pub(in crate::unit) struct Points(Steady);
 impl Step<Pattern> for Points {
     fn accept(&mut self, token: &Token<Pattern>, out: &mut impl Emit<Token<Pattern>>) -> Cost {
         let Token::Patch(work) = token else { misled(token) };
-        let cost = self.0.cost(work.lists.factors.points() as u16); // at most 65 x 65
+        let cost = self.0.cost(work.lists.factors.points() as u64);
         one(token, cost, out)
     }
 }
@@ -160,12 +161,12 @@ impl Step<Pattern> for Connect {
         let mut read = self.read.map_or(0, |burst| work.lists.moved(burst) as u32);
         let steady = self.steady;
         self.waves.walk(triangles, |wave| {
-            let offset = steady.cost(wave.walked).latency;
+            let offset = steady.cost(wave.walked.into()).latency;
             let read = std::mem::take(&mut read);
             let wave = Wave { points: wave.points, triangles: wave.triangles, read };
             out.emit(Token::Wave(wave), offset);
         });
-        self.steady.cost(triangles.len() as u16)
+        self.steady.cost(triangles.len() as u64)
     }
 }
 
@@ -204,7 +205,7 @@ pub(in crate::unit) struct EmitWaves(Steady);
 impl Step<Pattern> for EmitWaves {
     fn accept(&mut self, token: &Token<Pattern>, out: &mut impl Emit<Token<Pattern>>) -> Cost {
         let Token::Wave(wave) = token else { misled(token) };
-        one(token, self.0.cost(wave.points.max(wave.triangles)), out)
+        one(token, self.0.cost(wave.points.max(wave.triangles).into()), out)
     }
 }
 

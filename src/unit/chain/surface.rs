@@ -1,7 +1,9 @@
 //! The chain of a unit whose patches have lists of parameters: its blocks behind assemble, each
 //! with what it makes of a token, and what that costs.
 
-use super::block::{Assemble, Channel, Link, Memory, Of, Points, Steady, Step, misled, one};
+use super::block::{
+    Assemble, Backface, Channel, Clip, Level, Link, Memory, Of, Points, Steady, Step, misled, one,
+};
 use super::{Fate, Flow, Token, chain_of};
 use crate::config::Config;
 use rtl_model::counter::Block as Name;
@@ -20,6 +22,7 @@ chain_of! {
 
 impl<T: Topology + 'static> Flow for T {
     type Stage = Stage<T>;
+    const SHARES_EDGES: bool = true;
 
     fn stage(block: Name, config: &Config) -> Stage<T> {
         let Some(costs) = config.costs(block) else { return Stage::begin(block, config) };
@@ -58,42 +61,6 @@ impl<T: Topology + 'static> Flow for T {
 
     fn edges(&self) -> [u64; 4] {
         [0, 1, 2, 3].map(|edge| self.edge(edge) as u64 + 1)
-    }
-}
-
-/// Trivial clipping, and whether it is enabled.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Clip(Steady, bool);
-
-impl<T: Topology + 'static> Step<T> for Clip {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let cost = if self.1 { self.0.cost(1) } else { self.0.idle() };
-        if work.fate == Fate::Clipped { cost } else { one(token, cost, out) }
-    }
-}
-
-/// Back-face removal.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Backface(Steady);
-
-impl<T: Topology + 'static> Step<T> for Backface {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let cost = if work.tested { self.0.cost(1) } else { self.0.idle() };
-        if work.fate == Fate::Culled { cost } else { one(token, cost, out) }
-    }
-}
-
-/// Levels.
-#[derive(Clone, Debug)]
-pub(in crate::unit) struct Level(Steady);
-
-impl<T: Topology + 'static> Step<T> for Level {
-    fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Patch(work) = token else { misled(token) };
-        let cost = if work.levels > 0 { self.0.cost(work.levels) } else { self.0.idle() };
-        one(token, cost, out)
     }
 }
 
