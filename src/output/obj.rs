@@ -60,7 +60,12 @@ fn write_patch(
         writeln!(out, "v {x} {y} {z}")?;
     }
     for vertex in mesh.vertices {
-        writeln!(out, "vt {} {}", parameter(vertex.u, frame.grid), parameter(vertex.v, frame.grid))?;
+        writeln!(
+            out,
+            "vt {} {}",
+            parameter(vertex.u, frame.grid),
+            parameter(vertex.v, frame.grid)
+        )?;
     }
     for triangle in mesh.triangles {
         // OBJ counts from 1.

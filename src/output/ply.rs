@@ -186,7 +186,10 @@ fn write_vertices(
         for c in world(mesh.to_world, clip) {
             out.write_all(&c.to_le_bytes())?;
         }
-        for c in clip.into_iter().chain([parameter(vertex.u, frame.grid), parameter(vertex.v, frame.grid)]) {
+        for c in clip
+            .into_iter()
+            .chain([parameter(vertex.u, frame.grid), parameter(vertex.v, frame.grid)])
+        {
             out.write_all(&c.to_le_bytes())?;
         }
         out.write_all(&mesh.patch.to_le_bytes())?;

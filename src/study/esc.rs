@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Scenes, models and configurations come in; out come rows of integers, a table for people and a
-//! picture. All runs are of the units themselves, of which nothing is clipped or culled: the paper's
-//! counts are of all patches.
+//! picture. All runs are of the units themselves, of which nothing is clipped or culled: the
+//! paper's counts are of all patches.
 
 mod distance;
 pub mod energy;

@@ -10,7 +10,7 @@ use tessim::config::Config;
 use tessim::config::preset::Preset;
 use tessim::error::Result;
 use tessim::study::esc::energy::Prices;
-use tessim::study::esc::{error, triangles, work};
+use tessim::study::esc::{Scene, error, triangles, work};
 use tessim::trace::scene::newell::Newell;
 
 /// ESC: the tables and claims of Concheiro et al. 2014, measured again
@@ -142,11 +142,12 @@ fn level() -> RangedU64ValueParser<u32> {
     RangedU64ValueParser::new().range(0..=15)
 }
 
-const MODELS: [(&str, Newell); 4] = [
-    ("teapot", Newell::Teapot),
-    ("teapot28", Newell::Teapot28),
-    ("teacup", Newell::Teacup),
-    ("teaspoon", Newell::Teaspoon),
+const MODELS: [(&str, Scene); 5] = [
+    ("teapot", Scene::Model(Newell::Teapot)),
+    ("teapot28", Scene::Model(Newell::Teapot28)),
+    ("teacup", Scene::Model(Newell::Teacup)),
+    ("teaspoon", Scene::Model(Newell::Teaspoon)),
+    ("elephant", Scene::Elephants(1)),
 ];
 
 fn models() -> impl TypedValueParser<Value = String> {
@@ -181,11 +182,11 @@ fn of_error(args: &EscError, quiet: bool) -> Result<()> {
     let folder = folder(args.out.as_deref(), &NAMES, &error::CSV_HEADER)?;
     let base = args.laid.layers()?.finish()?;
     let model = MODELS.iter().find(|(name, _)| *name == args.model);
-    let model = model.expect("only names of models are possible values").1;
+    let scene = model.expect("only names of models are possible values").1;
     let mut targets = args.targets.clone();
     targets.sort_unstable();
     targets.dedup();
-    let options = error::Options { model, targets, level: args.level, segments: args.samples };
+    let options = error::Options { scene, targets, level: args.level, segments: args.samples };
     let rows = error::run(&options, &base)?;
     if let Some(folder) = folder {
         folder.write(NAMES[0], error::csv(&rows).as_bytes())?;

@@ -1,11 +1,11 @@
 //! Error: the claim of Concheiro et al. 2014, Figure 7, measured: at equal triangle counts, how far
 //! the true surface is from the triangles of each way to tessellate it.
 //!
-//! A model comes in, seen once by its camera. Targets are the counts of the uniform quad grid with
+//! A scene comes in, seen once by its camera. Targets are the counts of the uniform quad grid with
 //! n = 3, 4, .. segments, which `d3d11` hits with one factor for all; ESC's own uniform pattern has
-//! every third of them. The adaptive ways get there by their thresholds, searched for; where a count
-//! steps over its target, the nearest is taken and told. Out come the largest and the mean distance
-//! ([`Deviation`]), in the world and on the screen.
+//! every third of them. The adaptive ways get there by their thresholds, searched for; where a
+//! count steps over its target, the nearest is taken and told. Out come the largest and the mean
+//! distance ([`Deviation`]), in the world and on the screen.
 
 mod table;
 
@@ -20,7 +20,6 @@ use crate::output::space;
 use crate::sink::{FrameInfo, PatchMesh, Sink};
 use crate::study::walk::Walk;
 use crate::trace::command::Command;
-use crate::trace::scene::newell::Newell;
 use crate::unit::simulate;
 use glam::DMat4;
 use rayon::prelude::*;
@@ -38,8 +37,8 @@ const UNITS: [f64; 2] = [1.0 / (1 << 20) as f64, 4.0];
 /// How much is looked at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The model.
-    pub model: Newell,
+    /// What is seen, in one frame.
+    pub scene: Scene,
     /// Segments of the uniform grids whose counts are the targets, at least 3.
     pub targets: Vec<u32>,
     /// The level of resolution of the adaptive ways, 0..=15; the paper's is 3.
@@ -158,7 +157,7 @@ impl Row {
 /// Those of the configuration.
 pub fn run(options: &Options, base: &Config) -> Result<Vec<Row>> {
     some("targets", &options.targets)?;
-    let commands = Scene::Model(options.model).commands(1)?;
+    let commands = options.scene.commands(1)?;
     let truth = Truth::of(&commands, base)?;
     let mut rows = Vec::new();
     for &segments in &options.targets {

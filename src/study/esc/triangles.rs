@@ -2,15 +2,18 @@
 //!
 //! Two scenes come in, teacups and a stand-in for elephants, each at one level of resolution; out
 //! come triangles of the uniform pattern, and of the adaptive one as a part of these, over the
-//! threshold mu: for both readings of "control mesh" and for distances in pixels and in the units of
-//! the control points. The paper's table has one high and one medium threshold for both scenes; so a
-//! search follows for the one mu at which the worse of the two scenes is nearest to the table.
+//! threshold mu: for both readings of "control mesh" and for distances in pixels and in the units
+//! of the control points. The paper's table has one high and one medium threshold for both scenes;
+//! so a search follows for the one mu at which the worse of the two scenes is nearest to the table.
 //!
 //! In object units the count does not depend on the view, and one frame is as good as any.
-//! Elephants have a size of their own there, and the paper's are not to be had: of that the ratio of
-//! the two scenes' thresholds is free, which is why it is reported. It would have to be the same for
-//! both rows of the table.
+//!
+//! Elephants have a size of their own, and the paper's are not to be had. Elephants s times as
+//! large have at s times the threshold the same triangles: in object units exactly, in pixels where
+//! the camera stays as many of their lengths away. So a second search is for the one size at which
+//! both rows of the table come nearest, each at a common threshold of its own ([`Sized`]).
 
+mod fit;
 mod table;
 
 use super::scene::{Scene, patches};
@@ -123,6 +126,17 @@ pub struct Curve {
     pub samples: Vec<Sample>,
     /// For each row of [`PAPER`] the common mu that comes nearest to it.
     pub best: [Sample; 2],
+    /// The same for elephants of the size that suits both rows best.
+    pub sized: Sized,
+}
+
+/// Elephants of another size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sized {
+    /// How many times as large they are.
+    pub size: f64,
+    /// For each row of [`PAPER`] the common mu, and the triangles of both scenes.
+    pub best: [Sample; 2],
 }
 
 impl Curve {
@@ -138,17 +152,15 @@ impl Curve {
         worse(self.fractions(sample), row)
     }
 
-    /// The mu, between samples on a logarithmic scale, at which one scene alone has the paper's
-    /// part; `None` where none of the samples lie beside it.
-    #[must_use]
-    pub fn alone(&self, scene: usize, row: usize) -> Option<f64> {
-        let target = paper(row)[scene];
-        self.samples.windows(2).find_map(|pair| {
-            let [a, b] = [&pair[0], &pair[1]].map(|sample| self.fractions(sample)[scene]);
-            let part = if a > b { (a - target) / (a - b) } else { 0.0 };
-            let within = a >= target && target >= b;
-            within.then(|| between(pair[0].mu, pair[1].mu, part))
-        })
+    /// A scene's part at any mu, straight between samples on a logarithmic scale; beyond the ends
+    /// as there.
+    fn part(&self, scene: usize, mu: f64) -> f64 {
+        let samples = &self.samples;
+        let k = samples.partition_point(|sample| sample.mu < mu).clamp(1, samples.len() - 1);
+        let [a, b] = [&samples[k - 1], &samples[k]];
+        let along = ((mu / a.mu).log2() / (b.mu / a.mu).log2()).clamp(0.0, 1.0);
+        let [before, behind] = [a, b].map(|sample| self.fractions(sample)[scene]);
+        before * (1.0 - along) + behind * along
     }
 }
 
@@ -177,37 +189,43 @@ pub fn run(options: Options, base: &Config) -> Result<Study> {
     };
     let (still, film) = (of(1)?, of(options.frames)?);
     let uniform = both(&still, &uniform(base, options.level))?;
-    let curve = |test: Test| match test.space {
-        Space::Pixels => curve(test, &film, u64::from(options.frames), uniform, options, base),
-        Space::Object => curve(test, &still, 1, uniform, options, base),
+    let curve = |test: Test| {
+        let (scenes, frames) = match test.space {
+            Space::Pixels => (&film, u64::from(options.frames)),
+            Space::Object => (&still, 1),
+        };
+        curve(test, uniform.map(|n| n * frames), options, &mut |scene, mu| {
+            count(&scenes[scene], &test.config(base, options.level, mu))
+        })
     };
     let curves = Test::ALL.into_iter().map(curve).collect::<Result<_>>()?;
     let patches = [patches(&still[0]), patches(&still[1])];
     Ok(Study { options, patches, uniform, curves })
 }
 
+/// The curve of a test, of which `count` gives a scene's triangles at a threshold.
 fn curve(
     test: Test,
-    scenes: &[Vec<Command>; SCENES],
-    frames: u64,
     uniform: [u64; SCENES],
     options: Options,
-    base: &Config,
+    count: &mut dyn FnMut(usize, f64) -> Result<u64>,
 ) -> Result<Curve> {
-    let sample = |mu: f64| -> Result<Sample> {
-        let triangles = both(scenes, &test.config(base, options.level, mu))?;
-        Ok(Sample { mu, triangles })
+    let mut sample = |mu: f64, size: f64| -> Result<Sample> {
+        Ok(Sample { mu, triangles: [count(0, mu)?, count(1, mu / size)?] })
     };
     let [first, last] = test.octaves();
     let density = options.density as i32;
     let places = first * density..=last * density;
     let mus = places.map(|k| (f64::from(k) / f64::from(density)).exp2());
-    let samples = mus.map(sample).collect::<Result<Vec<_>>>()?;
-    let none = Sample { mu: 0.0, triangles: [0; SCENES] };
-    let uniform = uniform.map(|n| n * frames);
-    let mut curve = Curve { test, uniform, samples, best: [none; 2] };
+    let samples = mus.map(|mu| sample(mu, 1.0)).collect::<Result<Vec<_>>>()?;
+    let none = [Sample { mu: 0.0, triangles: [0; SCENES] }; 2];
+    let sized = Sized { size: 1.0, best: none };
+    let mut curve = Curve { test, uniform, samples, best: none, sized };
+    let [own, other] = [1.0, fit::size(&curve)];
+    curve.sized.size = other;
     for row in 0..PAPER.len() {
-        curve.best[row] = sample(common(&curve, row))?;
+        curve.best[row] = sample(fit::common(&curve, row, own).1, own)?;
+        curve.sized.best[row] = sample(fit::common(&curve, row, other).1, other)?;
     }
     Ok(curve)
 }
@@ -224,28 +242,6 @@ fn paper(row: usize) -> [f64; SCENES] {
 fn worse(fractions: [f64; SCENES], row: usize) -> f64 {
     let off = |k: usize| (fractions[k] - paper(row)[k]).abs();
     off(0).max(off(1))
-}
-
-/// The mu at which the worse scene is nearest to the paper, by what lies between samples.
-fn common(curve: &Curve, row: usize) -> f64 {
-    const PARTS: u32 = 64;
-    let mut best = (f64::INFINITY, curve.samples[0].mu);
-    for pair in curve.samples.windows(2) {
-        let [a, b] = [&pair[0], &pair[1]].map(|sample| curve.fractions(sample));
-        for k in 0..=PARTS {
-            let part = f64::from(k) / f64::from(PARTS);
-            let here = [0, 1].map(|scene| a[scene] * (1.0 - part) + b[scene] * part);
-            let off = worse(here, row);
-            if off < best.0 {
-                best = (off, between(pair[0].mu, pair[1].mu, part));
-            }
-        }
-    }
-    best.1
-}
-
-fn between(a: f64, b: f64, part: f64) -> f64 {
-    (a.log2() * (1.0 - part) + b.log2() * part).exp2()
 }
 
 #[cfg(test)]

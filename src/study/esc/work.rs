@@ -2,12 +2,12 @@
 //! 2.2, 4.2 and 5), measured: ESC against a domain shader, triangle counts equal, L = 1 to 15.
 //!
 //! Teacups come in, every patch with the uniform pattern of 18 (L + 1)^2 triangles: ESC's own, and
-//! from `d3d11` the grid of 3 (L + 1) segments. Out come invocations of shaders, control points that
-//! evaluation reads, operations with their energy, and cycles: those that the shader processors are
-//! occupied, by their programs' lengths ([`program`]) alone, and those of the whole unit with one
-//! processor and with as many as the machine has. The two differ where something else is the
-//! bottleneck: `emit` and the fixed-function tessellator give a triangle a cycle, however many
-//! processors there are.
+//! from `d3d11` the grid of 3 (L + 1) segments. Out come invocations of shaders, control points
+//! that evaluation reads, operations with their energy, and cycles: those that the shader
+//! processors are occupied, by their programs' lengths ([`program`]) alone, and those of the whole
+//! unit with one processor and with as many as the machine has. The two differ where something else
+//! is the bottleneck: `emit` and the fixed-function tessellator give a triangle a cycle, however
+//! many processors there are.
 
 pub mod program;
 mod table;
@@ -130,10 +130,16 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// All of it, with operations as they are built.
+    /// Of the chip, with operations as they are built.
+    #[must_use]
+    pub fn on_chip(&self) -> f64 {
+        self.operations + self.chip + self.invocations
+    }
+
+    /// All of it.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.operations + self.chip + self.memory + self.invocations
+        self.on_chip() + self.memory
     }
 }
 

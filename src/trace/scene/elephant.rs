@@ -10,11 +10,11 @@
 //!   legs       4       8 x 6                               sum 811
 //! ```
 //!
-//! A part is a closed tube about a quadratic spine: a uniform bicubic B-spline over rings of lattice
-//! points, as [`super::grid`] is over heights, turned into Bézier points. Both ends are poles, at
-//! which a side of each patch is one point. Within a part patches share their edges to the bit and
-//! join smoothly, but for the poles; parts run into each other, as handle and spout do in Newell's
-//! pots. Radii have seeded folds. z is up, and patches face outward.
+//! A part is a closed tube about a quadratic spine: a uniform bicubic B-spline over rings of
+//! lattice points, as [`super::grid`] is over heights, turned into Bézier points. Both ends are
+//! poles, at which a side of each patch is one point. Within a part patches share their edges to
+//! the bit and join smoothly, but for the poles; parts run into each other, as handle and spout do
+//! in Newell's pots. Radii have seeded folds. z is up, and patches face outward.
 
 use super::grid::{knots, random};
 use glam::DVec3;

@@ -1,9 +1,9 @@
 //! Teacups: cups on a plane in, a walk among them out, one frame after another.
 //!
 //! The cup's points are resident: they cross the link once, and every frame sends the matrices of
-//! its instances. Cups stand about three units apart ([`super::crowd`]); the eye walks from the front
-//! row towards the middle and sways a little, so that cups are seen large and small, and some are
-//! passed.
+//! its instances. Cups stand about three units apart ([`super::crowd`]); the eye walks from the
+//! front row towards the middle and sways a little, so that cups are seen large and small, and some
+//! are passed.
 
 use super::super::command::{Command, Draw, Header, Points, Primitive, Tessellation};
 use super::super::points::PointSource;

@@ -1,10 +1,12 @@
 //! Distances that must fall, counts that must be met, and ways that must be the same.
 
 use super::*;
+use crate::trace::scene::newell::Newell;
 use rtl_model::esc::ControlMesh;
 
 fn run_of(targets: &[u32], level: u32) -> Vec<Row> {
-    let options = Options { model: Newell::Teacup, targets: targets.to_vec(), level, segments: 12 };
+    let scene = Scene::Model(Newell::Teacup);
+    let options = Options { scene, targets: targets.to_vec(), level, segments: 12 };
     run(&options, &Config::default()).unwrap()
 }
 

@@ -59,9 +59,11 @@ pub fn text(study: &Study) -> String {
         text += "\n";
         text += &over_mu(curve);
     }
-    text +=
-        "\none common mu for both scenes: the one with the least larger deviation, in points\n\n";
-    text += &best(study);
+    text += "\none common mu for both scenes, where the worse of them is nearest to the paper\n\n";
+    text += &best(study, |curve| (1.0, &curve.best));
+    text += "\nthe same, with elephants of the one size that suits both rows best\n\n";
+    text += &best(study, |curve| (curve.sized.size, &curve.sized.best));
+    text += "\n";
     text += &verdict(study);
     text
 }
@@ -101,68 +103,48 @@ fn over_mu(curve: &Curve) -> String {
     format!("control mesh: {}\n\n{table}", reading(curve.test.mesh))
 }
 
-fn best(study: &Study) -> String {
+/// A table of the samples nearest to the paper, with elephants of a size.
+fn best(study: &Study, of: impl Fn(&Curve) -> (f64, &[Sample; 2])) -> String {
     let mut rows = Vec::new();
     for curve in &study.curves {
+        let (size, best) = of(curve);
         for (number, (name, paper)) in PAPER.iter().enumerate() {
-            let sample = &curve.best[number];
-            let [cups, elephants] = curve.fractions(sample).map(percent);
-            let alone = [0, 1].map(|scene| curve.alone(scene, number));
-            let ratio = match alone {
-                [Some(a), Some(b)] => digits(b / a),
-                _ => "-".to_owned(),
-            };
-            let [paper_cups, paper_elephants] = paper.map(|h| percent(f64::from(h) / 1e4));
+            let sample = &best[number];
+            let both = |parts: [f64; SCENES]| parts.map(percent).join(" / ");
+            let off = curve.deviation(sample, number);
             rows.push([
                 curve.test.name(),
                 (*name).to_owned(),
-                format!("{paper_cups} / {paper_elephants}"),
+                digits(size),
                 digits(sample.mu),
-                format!("{cups} / {elephants}"),
-                percent(curve.deviation(sample, number)),
-                alone[0].map_or("-".to_owned(), digits),
-                alone[1].map_or("-".to_owned(), digits),
-                ratio,
+                both(paper.map(|hundredths| f64::from(hundredths) / 1e4)),
+                both(curve.fractions(sample)),
+                percent(off),
+                if off <= f64::from(NEAR) / 1e4 { "yes" } else { "no" }.to_owned(),
             ]);
         }
     }
-    let columns = [
-        "test",
-        "row",
-        "paper %",
-        "best mu",
-        "measured %",
-        "off by",
-        "mu, teacups alone",
-        "elephants alone",
-        "ratio",
-    ];
+    let columns =
+        ["test", "row", "size", "mu", "paper %", "measured %", "off by", "within five points"];
     markdown::table(&columns, 2, &rows)
 }
 
 fn verdict(study: &Study) -> String {
     let near = f64::from(NEAR) / 1e4;
+    let rows = |curve: &Curve, best: &[Sample; 2]| {
+        (0..PAPER.len()).filter(|&row| curve.deviation(&best[row], row) <= near).count()
+    };
     let mut text = String::new();
     for curve in &study.curves {
-        let said: Vec<String> = (0..PAPER.len())
-            .map(|row| {
-                let holds = curve.deviation(&curve.best[row], row) <= near;
-                format!("{} {}", PAPER[row].0, if holds { "yes" } else { "no" })
-            })
-            .collect();
-        let name = curve.test.name();
-        writeln!(text, "within five points at one mu ({name}): {}", said.join(", "))
-            .expect("a String takes everything");
+        let (own, sized) = (rows(curve, &curve.best), rows(curve, &curve.sized.best));
+        let (name, size) = (curve.test.name(), digits(curve.sized.size));
+        let line = format!(
+            "{name}: within five points: {own} of 2 rows; with elephants {size} times as large, \
+             within five points: {sized} of 2"
+        );
+        writeln!(text, "{line}").expect("a String takes everything");
     }
-    let size = study.options.elephants;
-    writeln!(
-        text,
-        "the elephants are a stand-in, {size} of them: their shape, and in object units their size, \
-         are ours\nratio: elephants' own mu over the teacups'; one size of elephant fits both rows \
-         where it is the same in both"
-    )
-    .expect("a String takes everything");
-    text
+    text + "elephants are a stand-in: their shape is ours, and so is their size\n"
 }
 
 /// `triangles.svg`: the elephants' part over the teacups' part, mu running along each curve; the

@@ -1,16 +1,9 @@
-//! Counts against the pattern, fractions against what a threshold must do, and the search against
-//! curves made by hand.
+//! Counts against the pattern, and fractions against what a threshold must do.
 
 use super::*;
 
 fn small(level: u32) -> Options {
     Options { cups: 2, elephants: 1, frames: 1, level, density: 1 }
-}
-
-fn made(samples: &[(f64, [u64; 2])]) -> Curve {
-    let samples: Vec<_> = samples.iter().map(|&(mu, triangles)| Sample { mu, triangles }).collect();
-    let best = [samples[0]; 2];
-    Curve { test: Test::ALL[0], uniform: [10_000; 2], samples, best }
 }
 
 #[test]
@@ -35,11 +28,14 @@ fn uniform_patterns_have_288_triangles_a_patch_at_level_3_and_fractions_fall_wit
             let least = curve.samples.iter().map(|s| curve.deviation(s, row));
             let least = least.fold(f64::INFINITY, f64::min);
             assert!(best <= least + 0.02, "{}: {best} {least}", curve.test.name());
+            let sized = curve.deviation(&curve.sized.best[row], row);
+            let before = (0..2).map(|k| curve.deviation(&curve.best[k], k)).fold(0.0, f64::max);
+            assert!(sized <= before + 0.05, "{}: {sized} {before}", curve.test.name());
         }
     }
     let text = text(&study);
     assert!(text.contains("811 x 288, equal") && !text.contains("NOT EQUAL"), "{text}");
-    assert_eq!(csv(&study).lines().count(), 1 + 4 * (16 + 2));
+    assert_eq!(csv(&study).lines().count(), 1 + 4 * (16 + 4));
     assert!(svg(&study).unwrap().contains("paper, medium"));
 }
 
@@ -56,20 +52,6 @@ fn in_object_units_neither_copies_nor_frames_matter() {
     let one = part(1, 1);
     assert!(one > 26 * 18 && one < 26 * 288, "{one}");
     assert_eq!((part(3, 1), part(2, 2)), (one, one));
-}
-
-#[test]
-fn the_common_threshold_is_where_the_worse_scene_is_nearest() {
-    // Teacups meet the high row at mu = 2 exactly, elephants at 2 too.
-    let curve = made(&[(1.0, [9862, 9510]), (2.0, [9362, 8510]), (4.0, [5196, 5068])]);
-    assert_eq!([common(&curve, 0), common(&curve, 1)], [2.0, 4.0]);
-    assert!(curve.deviation(&curve.samples[1], 0) < 1e-12);
-    assert_eq!([curve.alone(0, 0), curve.alone(1, 1)], [Some(2.0), Some(4.0)]);
-    // Both fall alike, 20 points too high and 10 too low where one fits: the middle of both.
-    let curve = made(&[(1.0, [9362, 9510]), (4.0, [8362, 8510])]);
-    let mu = common(&curve, 0);
-    assert!((mu.log2() - 1.0).abs() < 0.05, "{mu}");
-    assert_eq!(curve.alone(0, 1), None);
 }
 
 #[test]

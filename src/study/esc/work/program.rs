@@ -14,9 +14,9 @@
 //! ```
 //!
 //! A naive domain shader forms the whole product for each point: 64 + 16. One that works by basis
-//! functions has nothing that a patch could share: 31. ESC forms the product once an invocation, and
-//! has a slot for each triangle of a strip: joining points is the tessellator's for `d3d11`, and
-//! takes no shader there.
+//! functions has nothing that a patch could share: 31. ESC forms the product once an invocation,
+//! and has a slot for each triangle of a strip: joining points is the tessellator's for `d3d11`,
+//! and takes no shader there.
 //!
 //! A processor has 16 lanes and runs waves of 64, so an instruction takes 4 cycles, and another 200
 //! pass from a wave's last instruction to its output, hidden by other waves. The processors are

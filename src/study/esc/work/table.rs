@@ -97,7 +97,7 @@ pub fn text(rows: &[Row], options: &Options) -> String {
         ("control points read to evaluate", |row| row.control_points as f64),
         ("points evaluated", |row| row.evaluations as f64),
         ("operations", |row| (row.ops.add + row.ops.mul + row.ops.compare) as f64),
-        ("energy in nJ", |row| row.energy.total() / 1e3),
+        ("energy in nJ, device memory left out", |row| row.energy.on_chip() / 1e3),
         ("energy of the operations in nJ, all in singles", |row| row.energy.in_singles / 1e3),
         ("cycles of one processor, shaders alone", |row| row.shader_cycles as f64),
     ];
@@ -112,6 +112,8 @@ pub fn text(rows: &[Row], options: &Options) -> String {
         });
     }
     speeds(&mut text, rows, options);
+    let memory = rows.first().map_or(0.0, |row| row.energy.memory / row.patches as f64 / 1e3);
+    line(&mut text, &format!("device memory: {memory:.1} nJ a patch, the same in all of them"));
     text
 }
 
@@ -140,41 +142,51 @@ fn lines(text: &mut String, name: &str, rows: &[Row], ways: &[(String, Vec<Strin
     text.push('\n');
 }
 
-/// How many times as fast as each domain shader ESC is, by the shaders alone and elapsed.
+/// How many times as fast as each domain shader ESC is; where it is slower, and where the paper's
+/// figures lie.
 fn speeds(text: &mut String, rows: &[Row], options: &Options) {
+    let mut said = Vec::new();
     let mut each = |name: &str, of: &dyn Fn(&Row) -> u64| {
         for against in [NAIVE, BASIS] {
             let ways = ESC.map(|way| {
                 let ratios = ratios(rows, way, against, of);
+                said.push(place(way, against, name, &ratios));
                 (way.name().to_owned(), ratios.iter().map(|(_, r)| format!("{r:.2}")).collect())
             });
             let head = format!("times as fast as {}, {name}, at L", against.name());
             lines(text, &head, rows, &ways);
-            for (way, (esc, _)) in ESC.iter().zip(&ways) {
-                said(text, esc, &ratios(rows, *way, against, of));
-            }
-            text.push('\n');
         }
     };
     each("shaders alone", &|row| row.shader_cycles);
     for (number, processors) in options.processors.iter().enumerate() {
-        each(&format!("{processors} processors"), &|row| row.elapsed[number]);
+        let plural = if *processors == 1 { "" } else { "s" };
+        each(&format!("{processors} processor{plural}"), &|row| row.elapsed[number]);
     }
+    let [a, b] = PAPER.map(|(machine, times)| format!("nearest to {times} ({machine})"));
+    let columns = ["way", "against", "by", "slower at L", "times as fast", &a, &b];
+    text.push_str(&markdown::table(&columns, 3, &said));
 }
 
-/// Where a curve of ratios loses, and where it lies by the paper's.
-fn said(text: &mut String, way: &str, ratios: &[(u32, f64)]) {
+/// Where a curve of ratios loses, between which it lies, and where it is nearest to the paper's.
+fn place(way: Way, against: Way, by: &str, ratios: &[(u32, f64)]) -> [String; 7] {
     let loses: Vec<String> =
         ratios.iter().filter(|(_, r)| *r < 1.0).map(|(level, _)| level.to_string()).collect();
-    let paper = PAPER.map(|(machine, times)| {
-        let nearest =
-            ratios.iter().min_by(|a, b| (a.1 - times).abs().total_cmp(&(b.1 - times).abs()));
-        nearest.map_or(String::new(), |(level, ratio)| {
-            format!("{machine} {times}: nearest {ratio:.2} at L = {level}")
-        })
+    let nearest = PAPER.map(|(_, times)| {
+        let off = |ratio: f64| (ratio - times).abs();
+        let least = ratios.iter().min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
+        least.map_or(String::new(), |(level, ratio)| format!("{ratio:.2}, L = {level}"))
     });
-    let loses = if loses.is_empty() { "nowhere".to_owned() } else { loses.join(" ") };
-    line(text, &format!("{way}: slower at L = {loses}; {}", paper.join("; ")));
+    let [low, high] = [f64::min, f64::max].map(|f| ratios.iter().map(|r| r.1).reduce(f));
+    let [a, b] = nearest;
+    [
+        way.name().to_owned(),
+        against.name().to_owned(),
+        by.to_owned(),
+        if loses.is_empty() { "-".to_owned() } else { loses.join(" ") },
+        format!("{:.2} .. {:.2}", low.unwrap_or(f64::NAN), high.unwrap_or(f64::NAN)),
+        a,
+        b,
+    ]
 }
 
 /// Another way's number over this one's, by level.

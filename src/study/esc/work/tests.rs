@@ -93,7 +93,10 @@ fn energy_is_the_sum_of_its_parts_and_naive_costs_more_than_once_a_patch() {
 fn tables_say_where_esc_loses_and_csv_has_a_row_for_each_number_of_processors() {
     let (rows, options) = run_of([0, 1], 1);
     let text = text(&rows, &options);
-    assert!(text.contains("HD 6970 2.05: nearest") && text.contains("slower at L ="), "{text}");
+    assert!(text.contains("nearest to 2.05 (HD 6970)") && text.contains("slower at L"), "{text}");
+    let lost = text.lines().filter(|line| line.contains("| d3d11, basis | shaders alone"));
+    let lost: Vec<_> = lost.filter(|line| line.contains("esc, no reuse")).collect();
+    assert!(lost.len() == 1 && lost[0].contains(" 0 1 |"), "at both levels: {lost:?}");
     let csv = csv(&rows, &options);
     assert_eq!(csv.lines().count(), 1 + 2 * 6 * 2);
     for line in csv.lines().skip(1) {
