@@ -302,11 +302,12 @@ counters! {
         SurfaceObjectNets "nets.object" Count "the same of control points in object space, for tests in object units", "= invocations or 0";
         SurfaceTests "tests" Count "distance tests of candidates", "0 where `esc.mu` is 0";
         SurfaceInserted "tests.inserted" Count "of those, where the vertex was inserted", "<= tests";
-        SurfaceEvaluations "evaluations" Count "points evaluated, corners of patches not counted: they are copied", "= sum of evaluations.*";
+        SurfaceEvaluations "evaluations" Count "points evaluated, corners of patches not counted: they are copied", "= evaluations.boundary + coarse_edges + interior + tests";
         SurfaceBoundary "evaluations.boundary" Count "of those, on the patch's boundary", "";
         SurfaceCoarse "evaluations.coarse_edges" Count "of those, on coarse edges within the patch", "";
         SurfaceInterior "evaluations.interior" Count "of those, within coarse triangles", "";
         SurfaceTested "evaluations.tests" Count "of those, for a test alone: not inserted, or not kept, or in object space", "";
+        SurfaceTestedBoundary "evaluations.tests.boundary" Count "of these, on the patch's boundary", "<= evaluations.tests";
         SurfaceCorners "corners" Count "corners of patches, copied", "";
         SurfacePoints "points" Count "distinct points of the mesh", "<= emit vertices";
         SurfaceStripVertices "strip_vertices" Count "vertices of the triangle strips, as lists (section 3 of the paper)", ">= points";

@@ -168,9 +168,8 @@ mod tests {
         let wide = bounds(&[[0.0, 0.0, -8.0, 1.0], [4.0, 2.0, -20.0, 1.0]]);
         // 1 wide and 6 high, about the axis: 12.5 by 37.5.
         let high = bounds(&[[-0.5, -3.0, -8.0, 1.0], [0.5, 3.0, -8.0, 1.0]]);
-        let level = |bounds, pixels| {
-            super::level(bounds, &projection(), &settings(Policy::ScreenSize { pixels }))
-        };
+        let level =
+            |bounds, pixels| level(bounds, &projection(), &settings(Policy::ScreenSize { pixels }));
         let levels = [25.0, 50.0, 66.0, 67.0, 100.0, 199.0, 200.0].map(|p| level(&wide, p));
         assert_eq!(levels, [3, 3, 3, 2, 1, 1, 0]);
         assert_eq!([37.5, 49.0, 51.0, 75.0, 150.0].map(|p| level(&high, p)), [3, 3, 2, 1, 0]);
@@ -179,9 +178,8 @@ mod tests {
     #[test]
     fn what_is_too_near_or_too_large_has_full_detail_and_nothing_has_none() {
         let far = Policy::Distance { full: 0.0 };
-        let level = |bounds: &Bounds, matrix: &Mat4, policy| {
-            super::level(bounds, matrix, &settings(policy))
-        };
+        let level =
+            |bounds: &Bounds, matrix: &Mat4, policy| level(bounds, matrix, &settings(policy));
         let near = bounds(&[[0.0, 0.0, -0.25, 1.0], [1.0, 1.0, -9.0, 1.0]]);
         assert_eq!(level(&near, &projection(), far), 3);
         let behind = bounds(&[[0.0, 0.0, 1.0, 1.0], [1.0, 1.0, -9.0, 1.0]]);

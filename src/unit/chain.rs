@@ -9,7 +9,6 @@ mod d3d11;
 mod esc;
 mod surface;
 
-use super::wave;
 use crate::config::{Channels, Config, Unit};
 use crate::link::schedule::{LinkSchedule, MemorySchedule, Parcel};
 use rtl_model::counter::Block as Name;
@@ -75,7 +74,7 @@ use chain_of;
 use d3d11::Wave;
 
 pub(super) use d3d11::Pattern;
-pub(super) use esc::Meshed;
+pub(super) use esc::{Invocations, Lane, Meshed};
 
 /// Levels of a patch: four edges and two interior directions.
 const LEVELS: u16 = 6;
@@ -121,7 +120,7 @@ impl<T: Flow> Work<T> {
     }
 
     /// What it takes of a wave of the surface shader, where it is tessellated by one.
-    pub(super) fn lane(&self) -> Option<wave::Lane> {
+    pub(super) fn lane(&self) -> Option<Lane> {
         if self.fate == Fate::Kept { self.lists.lane() } else { None }
     }
 }
@@ -147,12 +146,12 @@ pub(super) trait Flow: Copy + Default + Eq + Send + Sync + fmt::Debug + 'static 
     fn edges(&self) -> [u64; 4];
 
     /// What it takes of a wave of the surface shader, where there is one.
-    fn lane(&self) -> Option<wave::Lane> {
+    fn lane(&self) -> Option<Lane> {
         None
     }
 
     /// It completes a wave.
-    fn close(&mut self, _wave: wave::Wave) {}
+    fn close(&mut self, _wave: Invocations) {}
 }
 
 /// Levels that a criterion computes for a patch.
@@ -185,7 +184,7 @@ pub(super) enum Token<T> {
     /// Connectivity to the domain shader and on to emit (unit `d3d11`).
     Wave(Wave),
     /// Group to the surface shader and on to emit (unit `esc`).
-    Invocations(wave::Wave),
+    Invocations(Invocations),
 }
 
 /// The timed blocks of a unit, in the order of the data.

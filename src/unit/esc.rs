@@ -10,10 +10,9 @@
 //! Levels of resolution belong to edges, so that patches of different levels meet; or the driver
 //! chooses one for a whole draw (`esc.scope`), and then only draws of one level do.
 
-use super::chain::{self, Meshed};
+use super::chain::{self, Lane, Meshed};
 use super::frame::FrameState;
 use super::pipeline::{Input, Make, Placed, Placing};
-use super::wave::Lane;
 use crate::config::{Config, LevelPolicy, LevelScope, Normals, Reuse, Unit};
 use crate::error::Result;
 use crate::shader::object_level::{self, Bounds};
@@ -252,6 +251,7 @@ fn count_points(made: &Made, counters: &mut Counters) {
     counters.add(Counter::SurfaceCoarse, made.coarse);
     counters.add(Counter::SurfaceInterior, made.interior);
     counters.add(Counter::SurfaceTested, made.tested);
+    counters.add(Counter::SurfaceTestedBoundary, made.tested_boundary);
     counters.add(Counter::SurfaceCorners, made.corners);
     counters.add(Counter::SurfacePoints, made.distinct);
     counters.add(Counter::SurfaceStripVertices, made.strip_vertices);

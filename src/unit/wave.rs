@@ -16,22 +16,11 @@
 //! the next patch's invocations have no lane left, or its draw ends. A patch with more sections
 //! than a wave has lanes takes several rounds, each as long as its longest.
 
-use super::chain::{Flow, Work};
+use super::chain::{Flow, Invocations, Work};
 use super::clock::Fetch;
 use crate::config::Config;
 use rtl_model::counter::{Counter, Counters};
-use rtl_model::esc::{Phase, Phases};
-
-/// What a wave takes, and what comes of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Wave {
-    /// Cycles of a processor.
-    pub(super) cycles: u64,
-    /// Vertices that leave.
-    pub(super) vertices: u64,
-    /// Triangles that leave.
-    pub(super) triangles: u64,
-}
+use rtl_model::esc::Phase;
 
 /// A patch that waits for its wave to be complete: what brings it, what became of it, and its
 /// bytes on the link where the host tessellates.
@@ -71,7 +60,7 @@ pub(super) struct Former<T> {
     invocations: u64,
     longest: Phase,
     busy: u64,
-    wave: Wave,
+    wave: Invocations,
     /// What all waves took.
     pub(super) counters: Counters,
 }
@@ -95,7 +84,7 @@ impl<T: Flow> Former<T> {
             invocations: 0,
             longest: Phase::default(),
             busy: 0,
-            wave: Wave::default(),
+            wave: Invocations::default(),
             counters: Counters::default(),
         }
     }
@@ -139,7 +128,7 @@ impl<T: Flow> Former<T> {
         self.waiting.drain(..).for_each(send);
     }
 
-    fn close(&mut self) -> Wave {
+    fn close(&mut self) -> Invocations {
         let invocations = std::mem::take(&mut self.invocations);
         let rounds = invocations.div_ceil(self.width);
         let cycles = rounds * self.program.cycles(&std::mem::take(&mut self.longest));
@@ -152,7 +141,7 @@ impl<T: Flow> Former<T> {
         counters.add(Counter::SurfaceLaneCycles, lanes);
         counters.add(Counter::SurfaceUsedCycles, busy);
         counters.add(Counter::SurfaceIdleCycles, lanes - busy);
-        Wave { cycles, ..std::mem::take(&mut self.wave) }
+        Invocations { cycles, ..std::mem::take(&mut self.wave) }
     }
 }
 
@@ -166,18 +155,11 @@ fn longest(a: Phase, b: Phase) -> Phase {
     }
 }
 
-/// What a patch takes of a wave.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Lane {
-    pub(super) phases: Phases,
-    pub(super) vertices: u32,
-    pub(super) triangles: u32,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::unit::chain::{Fate, Meshed};
+    use crate::unit::chain::{Fate, Lane, Meshed};
+    use rtl_model::esc::Phases;
 
     /// A cycle an instruction, and an instruction each.
     fn former(width: u32) -> Former<Meshed> {

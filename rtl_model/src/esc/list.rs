@@ -20,6 +20,15 @@ pub struct List {
     held: Option<Site>,
 }
 
+impl Strip {
+    /// The strip as the paper prints it: without equal neighbours (rule 3), and alternating between
+    /// rows (rule 4). Which triangles there are does not depend on it.
+    #[must_use]
+    pub fn list(self) -> List {
+        List::new(self)
+    }
+}
+
 impl List {
     pub(super) fn new(strip: Strip) -> Self {
         let (lower, upper) = strip.rows();

@@ -10,7 +10,6 @@
 //!   lower    l───l───l───l      slot 2: low[1] low[2] top[1]  ..
 //! ```
 
-use super::list::List;
 use super::row::{Row, Spread};
 use super::{Insertion, Site, Triangle};
 
@@ -51,13 +50,6 @@ impl Strip {
     pub fn slots(self) -> Slots {
         let (lower, mut upper) = self.rows();
         Slots { strip: self, low: lower.entry(0), top: upper.step(), upper, slot: 0 }
-    }
-
-    /// The strip as the paper prints it: without equal neighbours (rule 3), and alternating between
-    /// rows (rule 4). Which triangles there are does not depend on it.
-    #[must_use]
-    pub fn list(self) -> List {
-        List::new(self)
     }
 
     pub(super) fn rows(self) -> (Row, Spread) {

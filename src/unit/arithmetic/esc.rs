@@ -59,10 +59,7 @@ pub(super) const POINT: Piece = Piece {
     meaning: "a point by [U][NBM][V]: 15 steps of Horner of a vec4, and its rounding: those on \
               coarse edges, within coarse triangles and for tests alone, and under \
               esc.boundary plain those on the boundary",
-    times: |f| {
-        let evaluated = f.get(C::SurfaceEvaluations);
-        if f.symmetric() { evaluated - f.get(C::SurfaceBoundary) } else { evaluated }
-    },
+    times: |f| f.get(C::SurfaceEvaluations) - f.by_half_runs(),
     once: |f| horner(f, 15),
 };
 
@@ -70,7 +67,7 @@ pub(super) const BOUNDARY: Piece = Piece {
     block: Block::Surface,
     meaning: "esc.boundary symmetric, a point of the boundary: 3 steps of Horner of a vec4 from the \
               nearer corner, and its rounding",
-    times: |f| if f.symmetric() { f.get(C::SurfaceBoundary) } else { 0 },
+    times: |f| f.by_half_runs(),
     once: |f| horner(f, 3),
 };
 
@@ -144,6 +141,12 @@ impl Frame<'_> {
 
     fn symmetric(&self) -> bool {
         self.config.esc.boundary == Boundary::Symmetric
+    }
+
+    /// Points that are evaluated from the nearer corner.
+    fn by_half_runs(&self) -> u64 {
+        let boundary = self.get(C::SurfaceBoundary) + self.get(C::SurfaceTestedBoundary);
+        if self.symmetric() { boundary } else { 0 }
     }
 
     fn tested_in(&self, space: Space) -> u64 {

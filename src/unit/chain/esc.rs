@@ -6,17 +6,36 @@ use super::block::{
 };
 use super::{Fate, Flow, Token, chain_of};
 use crate::config::Config;
-use crate::unit::wave::{Lane, Wave};
 use rtl_model::counter::Block as Name;
+use rtl_model::esc::{Levels, Phases};
 use rtl_model::time::{Block, Cost, Emit, Visitor};
+
+/// What a wave of invocations takes, and what comes of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::unit) struct Invocations {
+    /// Cycles of a processor.
+    pub(in crate::unit) cycles: u64,
+    /// Vertices that leave.
+    pub(in crate::unit) vertices: u64,
+    /// Triangles that leave.
+    pub(in crate::unit) triangles: u64,
+}
+
+/// What a patch takes of a wave.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::unit) struct Lane {
+    pub(in crate::unit) phases: Phases,
+    pub(in crate::unit) vertices: u32,
+    pub(in crate::unit) triangles: u32,
+}
 
 /// What a patch takes of a wave, what comes of it, and its wave, if it completes one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::unit) struct Meshed {
     pub(in crate::unit) lane: Lane,
-    pub(in crate::unit) levels: rtl_model::esc::Levels,
+    pub(in crate::unit) levels: Levels,
     /// Only a patch that completes a wave has it.
-    pub(in crate::unit) wave: Option<Wave>,
+    pub(in crate::unit) wave: Option<Invocations>,
 }
 
 chain_of! {
@@ -57,7 +76,7 @@ impl Flow for Meshed {
         Some(self.lane)
     }
 
-    fn close(&mut self, wave: Wave) {
+    fn close(&mut self, wave: Invocations) {
         self.wave = Some(wave);
     }
 }
