@@ -236,7 +236,7 @@ fn esc_counts_triangles_of_the_papers_pattern_and_replaces_its_like() {
     let rows = rows(&csv);
     assert_eq!(rows.len(), 1 + 4 * (16 + 4));
     for row in &rows[1..] {
-        assert_eq!((row[5], row[7]), ("14976", "233568"), "{row:?}");
+        assert_eq!((row[6], row[8]), ("14976", "233568"), "{row:?}");
         assert!(row[3..].iter().all(|n| n.parse::<u64>().is_ok()), "{row:?}");
     }
     fails(2, tessim().args(["study", "esc", "work", "--levels", "1..1", "--out"]).arg(&out));

@@ -6,7 +6,7 @@ use rtl_model::esc::ControlMesh;
 
 fn run_of(targets: &[u32], level: u32) -> Vec<Row> {
     let scene = Scene::Model(Newell::Teacup);
-    let options = Options { scene, targets: targets.to_vec(), level, segments: 12 };
+    let options = Options { scene, targets: targets.to_vec(), level, segments: 17 };
     run(&options, &Config::default()).unwrap()
 }
 

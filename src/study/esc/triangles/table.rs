@@ -7,12 +7,14 @@ use crate::study::esc::{nano, reading};
 use crate::study::markdown;
 use std::fmt::Write;
 
-/// The columns of `triangles.csv`. `mu_nano`: 1e-9 pixels or object units; `row`: `curve`, or the
-/// row of the paper's table that this mu comes nearest to.
-pub const CSV_HEADER: [&str; 9] = [
+/// The columns of `triangles.csv`. `row`: `curve`, or the row of the paper's table that this mu
+/// comes nearest to; `elephant_size_nano`: 1e-9 of the stand-in's own size; `mu_nano`: 1e-9 pixels
+/// or object units.
+pub const CSV_HEADER: [&str; 10] = [
     "control_mesh",
     "space",
     "row",
+    "elephant_size_nano",
     "mu_nano",
     "level",
     "teacups_uniform",
@@ -32,10 +34,13 @@ pub fn csv(study: &Study) -> String {
     let mut text = CSV_HEADER.join(",") + "\n";
     for curve in &study.curves {
         let space = curve.test.unit().split(' ').next().unwrap_or_default();
-        let best = PAPER.iter().map(|row| row.0).zip(&curve.best);
-        let rows = curve.samples.iter().map(|sample| ("curve", sample)).chain(best);
-        for (row, sample) in rows {
+        let named = |best: &[Sample; 2]| PAPER.iter().map(|row| row.0).zip(*best);
+        let own = curve.samples.iter().map(|sample| ("curve", *sample));
+        let own = own.chain(named(&curve.best)).map(|(row, sample)| (row, 1.0, sample));
+        let sized = named(&curve.sized.best).map(|(row, sample)| (row, curve.sized.size, sample));
+        for (row, size, sample) in own.chain(sized) {
             let numbers = [
+                nano(size),
                 nano(sample.mu),
                 study.options.level.into(),
                 curve.uniform[0],
