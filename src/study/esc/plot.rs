@@ -33,6 +33,25 @@ pub(super) struct Mark {
     pub(super) room: f64,
 }
 
+/// Where there is nothing but the names of series.
+#[derive(Clone, Copy)]
+pub(super) enum Names {
+    UpperLeft,
+    LowerLeft,
+    /// Above the data.
+    Above,
+}
+
+impl Names {
+    const fn position(self) -> SeriesLabelPosition {
+        match self {
+            Self::UpperLeft => SeriesLabelPosition::UpperLeft,
+            Self::LowerLeft => SeriesLabelPosition::LowerLeft,
+            Self::Above => SeriesLabelPosition::UpperRight,
+        }
+    }
+}
+
 /// A picture.
 pub(super) struct Chart<'a> {
     /// What errors call it.
@@ -42,6 +61,8 @@ pub(super) struct Chart<'a> {
     pub(super) y: &'a str,
     /// Whether y is logarithmic.
     pub(super) log: bool,
+    /// Where names stand.
+    pub(super) names: Names,
     pub(super) series: Vec<Series>,
     /// Horizontal lines.
     pub(super) levels: Vec<(String, f64)>,
@@ -59,7 +80,8 @@ pub(super) fn svg(chart: &Chart<'_>) -> Result<String> {
         draw(&mut text, chart, (low / 1.5..high * 1.5).log_scale())
     } else {
         let room = 0.05 * (high - low).max(1e-9);
-        draw(&mut text, chart, low - room..high + room)
+        let above = if matches!(chart.names, Names::Above) { 10.0 * room } else { room };
+        draw(&mut text, chart, low - room..high + above)
     };
     drawn.map_err(|error| Error::system(chart.file, io::Error::other(error.to_string())))?;
     Ok(text)
@@ -102,6 +124,8 @@ where
         .configure_mesh()
         .x_desc(chart.x)
         .y_desc(chart.y)
+        .x_label_formatter(&|at| tick(*at))
+        .y_label_formatter(&|at| tick(*at))
         .label_style(("sans-serif", 13))
         .light_line_style(WHITE)
         .bold_line_style(BLACK.mix(0.12))
@@ -130,11 +154,17 @@ where
     }
     context
         .configure_series_labels()
-        .position(SeriesLabelPosition::LowerRight)
+        .position(chart.names.position())
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .label_font(("sans-serif", 13))
         .draw()?;
     root.present()?;
     Ok(())
+}
+
+/// A number at an axis, without zeros that say nothing.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -1,6 +1,6 @@
 //! The rows as text, as CSV and as a picture.
 
-use super::plot::{Chart, Series};
+use super::plot::{Chart, Names, Series};
 use super::{Row, TOLERANCE, Way, plot};
 use crate::error::Result;
 use crate::study::esc::nano;
@@ -113,6 +113,7 @@ fn draw(rows: &[Row], file: &str, title: &str, value: impl Fn(&Row) -> f64) -> R
         x: "triangles",
         y: "world units",
         log: true,
+        names: Names::LowerLeft,
         series: series.collect(),
         levels: Vec::new(),
         marks: Vec::new(),

@@ -1,6 +1,6 @@
 //! The curves as text, as CSV and as a picture.
 
-use super::plot::{Chart, Mark, Series};
+use super::plot::{Chart, Mark, Names, Series};
 use super::{Curve, NEAR, PAPER, SCENES, Sample, Study, plot, uniform_triangles};
 use crate::error::Result;
 use crate::study::esc::{nano, reading};
@@ -152,20 +152,24 @@ fn verdict(study: &Study) -> String {
     text + "elephants are a stand-in: their shape is ours, and so is their size\n"
 }
 
-/// `triangles.svg`: the elephants' part over the teacups' part, mu running along each curve; the
-/// paper's two rows as points with five points' room around them.
+/// `triangles.svg`: the elephants' part over the teacups' part, mu running along each curve, with
+/// elephants of their own size and of that which suits the paper best; the paper's two rows as
+/// points with five points' room around them.
 ///
 /// # Errors
 /// None that can be expected: it is drawn into memory.
 pub fn svg(study: &Study) -> Result<String> {
-    let series = study.curves.iter().map(|curve| Series {
-        name: curve.test.name(),
+    let series = |curve: &Curve, size: f64| Series {
+        name: format!("{}, size {}", curve.test.name(), digits(size)),
         points: curve
             .samples
             .iter()
-            .map(|sample| curve.fractions(sample).map(|part| 100.0 * part).into())
+            .map(|sample| [curve.part(0, sample.mu), curve.part(1, sample.mu / size)])
+            .map(|parts| parts.map(|part| 100.0 * part).into())
             .collect(),
-    });
+    };
+    let own = study.curves.iter().map(|curve| series(curve, 1.0));
+    let sized = study.curves.iter().map(|curve| series(curve, curve.sized.size));
     let mark = |(name, [x, y]): &(&str, [u32; SCENES])| Mark {
         name: format!("paper, {name}"),
         at: (f64::from(*x) / 100.0, f64::from(*y) / 100.0),
@@ -177,7 +181,8 @@ pub fn svg(study: &Study) -> Result<String> {
         x: "teacups",
         y: "elephants",
         log: false,
-        series: series.collect(),
+        names: Names::UpperLeft,
+        series: own.chain(sized).collect(),
         levels: Vec::new(),
         marks: PAPER.iter().map(mark).collect(),
     })

@@ -1,6 +1,6 @@
 //! The rows as text, as CSV and as a picture.
 
-use super::plot::{Chart, Series};
+use super::plot::{Chart, Names, Series};
 use super::{DomainKind, Options, PAPER, Reuse, Row, Way, plot};
 use crate::error::Result;
 use crate::study::markdown;
@@ -220,8 +220,9 @@ pub fn svg(rows: &[Row], options: &Options) -> Result<String> {
         points: points(esc, BASIS, &shaders),
     });
     for (number, processors) in options.processors.iter().enumerate() {
+        let plural = if *processors == 1 { "" } else { "s" };
         series.push(Series {
-            name: format!("{} / naive, {processors} processors", esc.name()),
+            name: format!("{} / naive, {processors} processor{plural}", esc.name()),
             points: points(esc, NAIVE, &|row| row.elapsed[number]),
         });
     }
@@ -233,6 +234,7 @@ pub fn svg(rows: &[Row], options: &Options) -> Result<String> {
         x: "level L",
         y: "times",
         log: false,
+        names: Names::Above,
         series,
         levels,
         marks: Vec::new(),
