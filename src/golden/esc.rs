@@ -8,6 +8,8 @@
 //! Where the paper is silent: of two inserted vertices of the bottom edge that are equally near,
 //! the right one; several empty rows are as one; above the first row there is the apex.
 
+pub mod resolution;
+
 use std::cmp::Reverse;
 
 /// A coarse triangle: which candidates are inserted, by vertex number (1 is the apex).

@@ -16,6 +16,8 @@ pub(crate) struct Ledger {
     pub(crate) undecided: u64,
     /// Distance tests that rounding may take either way: seen, and not compared.
     pub(crate) untested: u64,
+    /// Patches whose levels by size on the screen rounding may take either way.
+    pub(crate) unsized_edges: u64,
 }
 
 #[derive(Clone, Default)]
@@ -29,7 +31,12 @@ struct Tally {
 
 impl Ledger {
     pub(crate) fn new() -> Self {
-        Self { tallies: vec![Tally::default(); TABLE.len()], undecided: 0, untested: 0 }
+        Self {
+            tallies: vec![Tally::default(); TABLE.len()],
+            undecided: 0,
+            untested: 0,
+            unsized_edges: 0,
+        }
     }
 
     /// Takes in one item of a row with a budget.
@@ -94,9 +101,11 @@ impl Ledger {
                 ));
             }
         }
-        for (quantity, open) in
-            [(Quantity::LevelDivided, self.undecided), (Quantity::HullDecision, self.untested)]
-        {
+        for (quantity, open) in [
+            (Quantity::LevelDivided, self.undecided),
+            (Quantity::HullDecision, self.untested),
+            (Quantity::EscScreen, self.unsized_edges),
+        ] {
             let (row, decided) =
                 (&TABLE[quantity as usize], self.tallies[quantity as usize].compared);
             println!("{}: {}, within rounding of the threshold: {open}", row.block, row.what);

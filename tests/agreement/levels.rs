@@ -12,7 +12,7 @@ use tessim::golden::level::{self as golden, Bends, Pixel};
 const PIXELS_MOVED: f64 = 6.83;
 
 /// The same for a control polygon's three segments: sqrt(2) each for the ends, 1 for the root.
-const LENGTH_MOVED: f64 = 3.0 * 2.42;
+pub(crate) const LENGTH_MOVED: f64 = 3.0 * 2.42;
 
 /// Levels in ulps.
 const ONE: f64 = 65536.0;

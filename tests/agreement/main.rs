@@ -13,6 +13,7 @@ mod planes;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]
 mod random;
+mod resolutions;
 mod samples;
 mod shaders;
 mod table;

@@ -9,6 +9,7 @@ use super::levels;
 use super::patterns;
 use super::planes::{self, Source};
 use super::random::{Kind, Random, patch};
+use super::resolutions;
 use super::shaders;
 use super::table::{At, Quantity as Q};
 use super::walk;
@@ -76,6 +77,9 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
     for _ in 0..4_000 * scale {
         shaders::random(ledger, &mut random);
     }
+    for k in 0..8_400 * scale {
+        resolutions::random(ledger, &mut random, Kind::ALL[k as usize % 7]);
+    }
     insertions::all(ledger);
     for _ in 0..10_000 * scale {
         insertions::random(ledger, &mut random);
@@ -96,7 +100,7 @@ fn port(ledger: &mut Ledger, random: &mut Random) {
     blocks::port(ledger, value, format, modes);
 }
 
-fn view(random: &mut Random, width: u32) -> View {
+pub(crate) fn view(random: &mut Random, width: u32) -> View {
     let position = Format::of_range(width, 0);
     View {
         position,
@@ -117,7 +121,7 @@ fn level(random: &mut Random) -> Level {
     })
 }
 
-fn state(random: &mut Random) -> State {
+pub(crate) fn state(random: &mut Random) -> State {
     let (a, b) = (level(random), level(random));
     let (min, max) = match random.integer(0, 3) {
         0 => (a.min(b), a.max(b)),
@@ -287,6 +291,9 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
         blocks::backface(ledger, patch, view);
         shaders::trace(ledger, drawn);
         let levels = levels::level(ledger, patch, view, &drawn.state);
+        for (level_max, part) in [(3, [0.5, 0.25]), (15, [0.9, 0.05])] {
+            resolutions::compare(ledger, (patch, view, &drawn.state), level_max, part);
+        }
         for scheme in SCHEMES {
             let settings = Settings {
                 position: view.position,

@@ -113,80 +113,108 @@ impl Seen<'_> {
 /// A line of the table; one without a cell for any unit is a heading.
 type Line = (String, Vec<Option<Cell>>);
 
+/// The lines of a table.
+struct Lines<'a> {
+    runs: &'a [Seen<'a>],
+    lines: Vec<Line>,
+}
+
+impl Lines<'_> {
+    fn heading(&mut self, name: &str) {
+        self.lines.push((name.to_owned(), Vec::new()));
+    }
+
+    fn each(&mut self, label: &str, cell: impl Fn(&Seen<'_>) -> Option<Cell>) {
+        self.lines.push((format!("  {label}"), self.runs.iter().map(cell).collect()));
+    }
+
+    /// The first of the counters that a unit has.
+    fn first(&mut self, label: &str, counters: &[(Block, Counter)]) {
+        self.each(label, |run| counters.iter().find_map(|&(block, c)| run.total(block, c)));
+    }
+
+    fn total(&mut self, label: &str, block: Block, counter: Counter) {
+        self.each(label, |run| run.total(block, counter));
+    }
+
+    fn any_has(&self, block: Block) -> bool {
+        self.runs.iter().any(|run| run.has(block))
+    }
+}
+
 fn lines(runs: &[Seen<'_>]) -> Vec<Line> {
+    let mut lines = Lines { runs, lines: Vec::new() };
+    bytes(&mut lines);
+    invocations(&mut lines);
+    lines.heading("made");
+    lines.each("patches tessellated", |run| run.tessellated());
+    lines.total("vertices", Block::Emit, Counter::EmitVertices);
+    lines.total("triangles", Block::Emit, Counter::EmitTriangles);
+    lines.heading("arithmetic");
+    lines.each("additions", |run| run.ops(|ops| ops.add));
+    lines.each("multiplications", |run| run.ops(|ops| ops.mul));
+    lines.each("comparisons", |run| run.ops(|ops| ops.compare));
+    lines.heading("time");
+    lines.each("elapsed cycles", |run| run.elapsed().map(Cell::Number));
+    lines.heading("verdict");
+    lines.each("cycles per triangle", |run| run.per_triangle(run.elapsed()?));
+    lines.each("link bytes per triangle", |run| {
+        run.per_triangle(run.whole.counters.get(Counter::LinkTotal))
+    });
+    lines.each("what binds", |run| {
+        let [what, _] = run.binds();
+        what
+    });
+    lines.each("  used", |run| {
+        let [_, used] = run.binds();
+        used
+    });
+    lines.lines
+}
+
+fn bytes(lines: &mut Lines<'_>) {
     use Counter as C;
-    let mut lines: Vec<Line> = Vec::new();
-    let heading = |name: &str| (name.to_owned(), Vec::new());
-    let each = |label: &str, cell: &dyn Fn(&Seen<'_>) -> Option<Cell>| {
-        (format!("  {label}"), runs.iter().map(cell).collect())
-    };
-    let total =
-        |label: &str, block, counter| each(label, &|run: &Seen<'_>| run.total(block, counter));
-    lines.push(heading("bytes over the link"));
-    for kind in used_kinds(runs) {
+    lines.heading("bytes over the link");
+    for kind in used_kinds(lines.runs) {
         let label = kind.name.trim_start_matches("bytes.").replace('_', " ");
-        lines.push(total(&label, Block::Link, kind.counter));
+        lines.total(&label, Block::Link, kind.counter);
     }
-    lines.push(heading("bytes of device memory"));
-    lines.push(each("read", &|run| run.sum(Block::Memory, "bytes.read.")));
-    lines.push(each("written", &|run| run.sum(Block::Memory, "bytes.written.")));
-    let shaders = runs.iter().any(|run| run.has(Block::Hull));
-    if shaders {
-        lines.push(heading("bytes of hull and domain shader"));
-        lines.push(total("hull shader, in", Block::Hull, C::HullBytesIn));
-        lines.push(total("  out", Block::Hull, C::HullBytesOut));
-        lines.push(each("domain shader, in", &|run| run.sum(Block::Domain, "bytes.in.")));
-        lines.push(total("  out", Block::Domain, C::DomainBytesOut));
+    lines.heading("bytes of device memory");
+    lines.each("read", |run| run.sum(Block::Memory, "bytes.read."));
+    lines.each("written", |run| run.sum(Block::Memory, "bytes.written."));
+    if lines.any_has(Block::Hull) {
+        lines.heading("bytes of hull and domain shader");
+        lines.total("hull shader, in", Block::Hull, C::HullBytesIn);
+        lines.total("  out", Block::Hull, C::HullBytesOut);
+        lines.each("domain shader, in", |run| run.sum(Block::Domain, "bytes.in."));
+        lines.total("  out", Block::Domain, C::DomainBytesOut);
     }
-    let surfaces = runs.iter().any(|run| run.has(Block::Surface));
-    if surfaces {
-        lines.push(heading("bytes of the surface shader"));
-        lines.push(total("in", Block::Surface, C::SurfaceBytesIn));
-        lines.push(total("out", Block::Surface, C::SurfaceBytesOut));
+    if lines.any_has(Block::Surface) {
+        lines.heading("bytes of the surface shader");
+        lines.total("in", Block::Surface, C::SurfaceBytesIn);
+        lines.total("out", Block::Surface, C::SurfaceBytesOut);
     }
-    lines.push(heading("invocations"));
-    let either = |label: &str, counters: &[(Block, Counter)]| {
-        each(label, &|run: &Seen<'_>| counters.iter().find_map(|&(block, c)| run.total(block, c)))
-    };
+}
+
+fn invocations(lines: &mut Lines<'_>) {
+    use Counter as C;
+    lines.heading("invocations");
     let transform = (Block::Transform, C::TransformInvocations);
-    lines.push(either("control-point shader", &[transform, (Block::Hull, C::HullThreads)]));
-    if shaders {
-        lines.push(total("patch-constant function", Block::Hull, C::HullInvocations));
+    lines.first("control-point shader", &[transform, (Block::Hull, C::HullThreads)]);
+    if lines.any_has(Block::Hull) {
+        lines.total("patch-constant function", Block::Hull, C::HullInvocations);
     }
-    if surfaces {
-        lines.push(total("surface shader", Block::Surface, C::SurfaceInvocations));
-        lines.push(total("tests", Block::Surface, C::SurfaceTests));
+    if lines.any_has(Block::Surface) {
+        lines.total("surface shader", Block::Surface, C::SurfaceInvocations);
+        lines.total("  tests", Block::Surface, C::SurfaceTests);
     }
     let points = [
         (Block::Evaluate, C::EvaluateInvocations),
         (Block::Domain, C::DomainInvocations),
         (Block::Surface, C::SurfaceEvaluations),
     ];
-    lines.push(either("points evaluated", &points));
-    lines.push(total("vertex shader", Block::VertexShader, C::VertexShaderInvocations));
-    lines.push(heading("made"));
-    lines.push(each("patches tessellated", &|run| run.tessellated()));
-    lines.push(total("vertices", Block::Emit, C::EmitVertices));
-    lines.push(total("triangles", Block::Emit, C::EmitTriangles));
-    lines.push(heading("arithmetic"));
-    lines.push(each("additions", &|run| run.ops(|ops| ops.add)));
-    lines.push(each("multiplications", &|run| run.ops(|ops| ops.mul)));
-    lines.push(each("comparisons", &|run| run.ops(|ops| ops.compare)));
-    lines.push(heading("time"));
-    lines.push(each("elapsed cycles", &|run| run.elapsed().map(Cell::Number)));
-    lines.push(heading("verdict"));
-    lines.push(each("cycles per triangle", &|run| run.per_triangle(run.elapsed()?)));
-    let link = |run: &Seen<'_>| run.per_triangle(run.whole.counters.get(C::LinkTotal));
-    lines.push(each("link bytes per triangle", &link));
-    lines.push(each("what binds", &|run| {
-        let [what, _] = run.binds();
-        what
-    }));
-    lines.push(each("  used", &|run| {
-        let [_, used] = run.binds();
-        used
-    }));
-    lines
+    lines.first("points evaluated", &points);
+    lines.total("vertex shader", Block::VertexShader, C::VertexShaderInvocations);
 }
 
 /// Kinds of link bytes, the total last, that any of the units moved.
