@@ -8,6 +8,7 @@ use rtl_model::patch::Level;
 use std::path::PathBuf;
 use tessim::trace::command::{Command, Primitive, Tessellation};
 use tessim::trace::read::Reader;
+use tessim::trace::scene::elephants::Elephants;
 use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::mesh::Mesh;
 use tessim::trace::scene::model::Model;
@@ -147,4 +148,14 @@ fn teacups_take_a_fixed_level() {
     Teacups { count: 5, frames: 2, tessellation }.write(&mut text).unwrap();
     assert_eq!(totals(&text), (2, 2 * 5 * 26));
     assert!(String::from_utf8(text).unwrap().contains(r#""criterion":"fixed","level":2.5,"#));
+}
+
+#[test]
+fn elephants_take_a_fixed_level() {
+    let criterion = Criterion::Fixed { level: Level::clamped(3 << 16) };
+    let tessellation = Tessellation { criterion, ..Tessellation::default() };
+    let mut text = Vec::new();
+    Elephants { count: 3, frames: 2, tessellation }.write(&mut text).unwrap();
+    assert_eq!(totals(&text), (2, 2 * 3 * 811));
+    assert!(String::from_utf8(text).unwrap().contains(r#""criterion":"fixed","level":3,"#));
 }

@@ -209,3 +209,88 @@ fn levels_that_cannot_be_are_refused() {
         fails(2, tessim().args(["study", "bandwidth", flag, value]));
     }
 }
+
+/// Rows of a CSV, cell by cell.
+fn rows(csv: &str) -> Vec<Vec<&str>> {
+    csv.lines().map(|line| line.split(',').collect()).collect()
+}
+
+#[test]
+fn esc_counts_triangles_of_the_papers_pattern_and_replaces_its_like() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let small = ["study", "esc", "triangles", "--cups", "2", "--elephants", "1", "--frames", "1"];
+    let study = |threads: &str| {
+        let mut command = tessim();
+        let command = command.env("RAYON_NUM_THREADS", threads);
+        let text = printed(command.args(small).args(["--density", "1", "--out"]).arg(&out));
+        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        (text, read("triangles.csv"), read("triangles.svg"))
+    };
+    let first = study("1");
+    assert!(first == study("3"), "by the same bytes");
+    let (text, csv, picture) = first;
+    assert!(text.contains("52 x 288, equal") && text.contains("811 x 288, equal"), "{text}");
+    assert_eq!(text.matches("within five points: ").count(), 2 * 4, "{text}");
+    assert!(picture.starts_with("<svg") && picture.contains("chord, object units"));
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 1 + 4 * (16 + 4));
+    for row in &rows[1..] {
+        assert_eq!((row[6], row[8]), ("14976", "233568"), "{row:?}");
+        assert!(row[3..].iter().all(|n| n.parse::<u64>().is_ok()), "{row:?}");
+    }
+    fails(2, tessim().args(["study", "esc", "work", "--levels", "1..1", "--out"]).arg(&out));
+}
+
+#[test]
+fn esc_is_held_against_the_true_surface_at_equal_counts() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut command = tessim();
+    let small = ["study", "esc", "error", "--targets", "6,9,6", "--samples", "8", "--out"];
+    let text = printed(command.args(small).arg(&out));
+    assert!(text.contains("6 x 6: 1872") && text.contains("9 x 9: 4212"), "{text}");
+    let csv = fs::read_to_string(out.join("error.csv")).unwrap();
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 1 + 2 * 7, "a target named twice is one");
+    let number = |row: &[&str], k: usize| row[k].parse::<u64>().unwrap();
+    for way in ["esc_uniform", "d3d11_one_factor"] {
+        let of: Vec<_> = rows.iter().filter(|row| row[0] == way).collect();
+        assert!(of.iter().all(|row| row[2] == row[3] && row[4].is_empty()), "{of:?}");
+        assert!(number(of[0], 7) > number(of[1], 7), "finer is nearer: {of:?}");
+    }
+    for name in ["error.svg", "mean.svg"] {
+        assert!(fs::read_to_string(out.join(name)).unwrap().contains("d3d11, adaptive"), "{name}");
+    }
+    for targets in ["2", "49", "a", "6,,7"] {
+        fails(2, tessim().args(["study", "esc", "error", "--targets", targets]));
+    }
+}
+
+#[test]
+fn esc_work_has_equal_triangles_and_takes_prices_of_energy() {
+    let folder = tempfile::tempdir().unwrap();
+    let [out, prices] = ["out", "prices.toml"].map(|name| folder.path().join(name));
+    fs::write(&prices, "invocation = 70.0\n").unwrap();
+    let mut command = tessim();
+    let small = ["study", "esc", "work", "--cups", "1", "--levels", "1..2", "--processors", "1,3"];
+    let command = command.args(small).arg("--energy").arg(&prices).arg("--out").arg(&out);
+    let text = printed(command);
+    assert!(text.contains("cycles elapsed a patch, 3 processors"), "{text}");
+    let csv = fs::read_to_string(out.join("work.csv")).unwrap();
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 1 + 2 * 6 * 2);
+    let column = |name: &str| rows[0].iter().position(|cell| *cell == name).unwrap();
+    let number = |row: &[&str], name: &str| row[column(name)].parse::<u64>().unwrap();
+    for row in &rows[1..] {
+        let side = number(row, "level") + 1;
+        assert_eq!(number(row, "triangles"), 26 * 18 * side * side, "{row:?}");
+        assert_eq!(number(row, "invocations_pj"), 70 * number(row, "invocations"), "{row:?}");
+    }
+    fs::write(&prices, "invocation = -1\n").unwrap();
+    let mut wrong = tessim();
+    assert!(fails(2, wrong.args(small).arg("--energy").arg(&prices)).contains("prices.toml"));
+    for levels in ["3..1", "1..16", "4", "a..b"] {
+        fails(2, tessim().args(["study", "esc", "work", "--levels", levels]));
+    }
+}

@@ -56,7 +56,12 @@ impl Layered {
 impl Laid {
     /// What was laid.
     pub(crate) fn layers(&self) -> Result<Layers> {
-        let mut layers = Layers::new(self.preset.unwrap_or_default());
+        self.layers_over(Preset::default())
+    }
+
+    /// What was laid, over this preset where none was named.
+    pub(crate) fn layers_over(&self, preset: Preset) -> Result<Layers> {
+        let mut layers = Layers::new(self.preset.unwrap_or(preset));
         if let Some(path) = &self.config {
             layers.file(&path.display().to_string(), &text(path)?)?;
         }
@@ -65,7 +70,8 @@ impl Laid {
     }
 }
 
-fn text(path: &Path) -> Result<String> {
+/// The text of a file.
+pub(crate) fn text(path: &Path) -> Result<String> {
     let bytes = std::fs::read(path).map_err(|error| Error::system(path, error))?;
     String::from_utf8(bytes).map_err(|error| Error::Input {
         file: path.display().to_string(),

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use tessim::config::{self, Config, Criterion};
 use tessim::error::Result;
 use tessim::trace::command::Tessellation;
+use tessim::trace::scene::elephants::Elephants;
 use tessim::trace::scene::grid::Grid;
 use tessim::trace::scene::mesh::Mesh;
 use tessim::trace::scene::model::Model;
@@ -79,6 +80,17 @@ enum Scene {
     Teacups {
         /// Cups, 26 patches each
         #[arg(long, default_value_t = 25, value_parser = number())]
+        count: u32,
+        /// Frames
+        #[arg(long, default_value_t = 10, value_parser = number())]
+        frames: u32,
+        #[command(flatten)]
+        levels: Levels,
+    },
+    /// A walk among elephants, closed bodies of small patches, instances of resident points
+    Elephants {
+        /// Elephants, 811 patches each
+        #[arg(long, default_value_t = 10, value_parser = number())]
         count: u32,
         /// Frames
         #[arg(long, default_value_t = 10, value_parser = number())]
@@ -219,6 +231,10 @@ impl Scene {
             &Self::Teacups { count, frames, ref levels } => {
                 let cups = Teacups { count, frames, tessellation: levels.tessellation()? };
                 Ok(Box::new(move |mut out| cups.write(&mut out)))
+            }
+            &Self::Elephants { count, frames, ref levels } => {
+                let herd = Elephants { count, frames, tessellation: levels.tessellation()? };
+                Ok(Box::new(move |mut out| herd.write(&mut out)))
             }
         }
     }

@@ -1,5 +1,6 @@
 //! `study`: a question about a design and how thoroughly to look in, its table out.
 
+mod esc;
 mod motion;
 
 use super::print;
@@ -24,6 +25,7 @@ pub(crate) struct Args {
 enum Study {
     Backface(Backface),
     Bandwidth(Bandwidth),
+    Esc(esc::EscArgs),
     Motion(motion::Args),
 }
 
@@ -98,6 +100,7 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     match &args.study {
         Study::Backface(args) => of_backface(args, quiet),
         Study::Bandwidth(args) => of_bandwidth(args, quiet),
+        Study::Esc(args) => esc::run(args, quiet),
         Study::Motion(args) => motion::run(args, quiet),
     }
 }

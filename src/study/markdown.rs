@@ -7,12 +7,22 @@ pub(super) fn table<const N: usize>(
     names: usize,
     rows: &[[String; N]],
 ) -> String {
+    let columns: Vec<String> = columns.iter().map(|&column| column.to_owned()).collect();
+    of(&columns, names, rows)
+}
+
+/// The same with as many columns as there are, the first of names.
+pub(super) fn wide(columns: &[String], rows: &[Vec<String>]) -> String {
+    of(columns, 1, rows)
+}
+
+fn of<R: AsRef<[String]>>(columns: &[String], names: usize, rows: &[R]) -> String {
     let width = |k: usize| {
-        let cells = rows.iter().map(|row| row[k].len());
+        let cells = rows.iter().map(|row| row.as_ref()[k].len());
         cells.chain([columns[k].len()]).max().unwrap_or(0)
     };
     let line = |cell: &dyn Fn(usize) -> String| {
-        let cells: Vec<_> = (0..N).map(cell).collect();
+        let cells: Vec<_> = (0..columns.len()).map(cell).collect();
         format!("| {} |\n", cells.join(" | "))
     };
     let aligned = |k: usize, cell: &str| {
@@ -21,6 +31,6 @@ pub(super) fn table<const N: usize>(
     };
     let rule =
         |k: usize| if k < names { "-".repeat(width(k)) } else { "-".repeat(width(k) - 1) + ":" };
-    let head = line(&|k| aligned(k, columns[k])) + &line(&rule);
-    rows.iter().fold(head, |text, row| text + &line(&|k| aligned(k, &row[k])))
+    let head = line(&|k| aligned(k, &columns[k])) + &line(&rule);
+    rows.iter().fold(head, |text, row| text + &line(&|k| aligned(k, &row.as_ref()[k])))
 }

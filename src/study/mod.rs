@@ -7,6 +7,7 @@
 pub mod backface;
 pub mod bandwidth;
 pub mod compare;
+pub mod esc;
 mod markdown;
 pub mod motion;
 mod random;

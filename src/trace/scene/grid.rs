@@ -118,7 +118,7 @@ impl Heights {
 
 /// The first of the lattice points that Bézier point `i` depends on, and their weights: Boehm's
 /// knot insertion for a uniform cubic B-spline.
-fn knots(i: u32) -> (usize, &'static [f64]) {
+pub(super) fn knots(i: u32) -> (usize, &'static [f64]) {
     const CORNER: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
     const NEAR: [f64; 2] = [2.0 / 3.0, 1.0 / 3.0];
     const FAR: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];

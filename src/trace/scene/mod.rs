@@ -3,6 +3,9 @@
 //! never from a sine.
 
 pub mod camera;
+mod crowd;
+pub mod elephant;
+pub mod elephants;
 pub mod grid;
 pub mod mesh;
 pub mod model;
