@@ -53,11 +53,14 @@ impl Cubic {
     #[inline(always)]
     pub(super) fn at<R: RoundingMode, const NARROW: bool>(&self, t: Parameter) -> Point {
         let [c0, c1, c2, c3] = &self.0;
-        std::array::from_fn(|k| {
+        let mut point = [0; 4];
+        // A loop, for closures of array methods are not always inlined.
+        for k in 0..4 {
             let second = c2[k] + product::<R, NARROW>(c3[k], t);
             let first = c1[k] + product::<R, NARROW>(second, t);
-            c0[k] + product::<R, NARROW>(first, t)
-        })
+            point[k] = c0[k] + product::<R, NARROW>(first, t);
+        }
+        point
     }
 }
 
@@ -103,7 +106,9 @@ impl Net {
     /// The curve of constant v.
     #[inline(always)]
     pub(super) fn row<R: RoundingMode, const NARROW: bool>(&self, v: Parameter) -> Cubic {
-        Cubic([0, 1, 2, 3].map(|power: usize| self.by_u[power].at::<R, NARROW>(v)))
+        let [a, b, c, d] = &self.by_u;
+        let at = |curve: &Cubic| curve.at::<R, NARROW>(v);
+        Cubic([at(a), at(b), at(c), at(d)])
     }
 }
 
@@ -116,7 +121,7 @@ mod tests {
     fn same<R: RoundingMode>(c: i64, t: Parameter) {
         let exact = shift_right_wide::<R>(i128::from(c) * i128::from(t.fx), t.bits) as i64;
         assert_eq!(product::<R, false>(c, t), exact, "{c} {t:?} {:?}", R::MODE);
-        if i128::from(c) * i128::from(t.fx) >> 61 == i128::from(c >> 63) {
+        if (i128::from(c) * i128::from(t.fx)) >> 61 == i128::from(c >> 63) {
             assert_eq!(product::<R, true>(c, t), exact, "{c} {t:?} {:?}", R::MODE);
         }
     }

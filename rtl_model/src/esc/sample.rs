@@ -6,9 +6,9 @@
 //! - the patch's boundary, [`Boundary::Symmetric`]: a function of that edge's four control points,
 //!   by Horner's rule from the nearer corner, so at t <= 1/2; at 1/2 ((P0 + P3) + 3 (P1 + P2)) / 8.
 //!   The edge read from its other end gives the same bits, whichever patch reads it;
-//! - inside, and under [`Boundary::Plain`] on the boundary too: `[U] [NBM] [V]`, Horner's rule along
-//!   v for each power of u, then along u. Coarse edges inside need no symmetric form: a sample there
-//!   is a function of the patch and its place, the same for both coarse triangles.
+//! - inside, and under [`Boundary::Plain`] on the boundary too: `[U] [NBM] [V]`, Horner's rule
+//!   along v for each power of u, then along u. Coarse edges inside need no symmetric form: a
+//!   sample there is a function of the patch and its place, the same for both coarse triangles.
 //!
 //! A coordinate is rounded to its format once, at the end. What a row of samples shares, the curve
 //! of constant v, is kept here for speed; the hardware's count is fifteen multiply-adds a
@@ -91,20 +91,20 @@ pub(super) struct Datapath {
 }
 
 impl Datapath {
-    /// The output of a register: its coordinates, and how many of them did not fit.
+    /// A register without `bits` bits of its fraction, rounded and fitted; and how many coordinates
+    /// did not fit.
     #[inline(always)]
-    pub(super) fn rounded<R: RoundingMode, O: OverflowMode>(&self, point: Point) -> (Point, u64) {
-        self.fitted::<O>(point.map(|c| shift_right::<R>(c, self.guard)))
-    }
-
-    #[inline(always)]
-    fn fitted<O: OverflowMode>(&self, point: Point) -> (Point, u64) {
-        let mut overflows = 0;
-        let point = point.map(|c| {
-            let (fitted, overflowed) = self.format.fit::<O>(c);
+    pub(super) fn output<R: RoundingMode, O: OverflowMode>(
+        &self,
+        register: Point,
+        bits: u32,
+    ) -> (Point, u64) {
+        let (mut point, mut overflows) = (register, 0);
+        for c in &mut point {
+            let (fitted, overflowed) = self.format.fit::<O>(shift_right::<R>(*c, bits));
+            *c = fitted;
             overflows += u64::from(overflowed);
-            fitted
-        });
+        }
         (point, overflows)
     }
 }
@@ -207,7 +207,7 @@ impl Sampler {
             &self.net.row::<R, NARROW>(v) // a vertex of an edge with a level of its own
         };
         let point = row.at::<R, NARROW>(u);
-        self.rounded::<R, O>(point)
+        self.output::<R, O>(point, self.path.guard)
     }
 
     fn parameter(&self, parameters: &Parameters, level: u8, line: u8) -> Parameter {
@@ -226,19 +226,18 @@ impl Sampler {
         if 2 * line == last {
             let [a, b, c, d] = EDGES[edge].map(|k| self.points[k]);
             let sum: Point = std::array::from_fn(|k| (a[k] + d[k]) + 3 * (b[k] + c[k]));
-            let (point, overflows) = self.path.fitted::<O>(sum.map(|c| shift_right::<R>(c, 3)));
-            self.overflows += overflows;
-            return point;
+            return self.output::<R, O>(sum, 3);
         }
         let far = 2 * line > last;
         let line = if far { last - line } else { line };
         let t = self.parameter(parameters, level, line);
         let point = self.halves[edge][usize::from(far)].at::<R, NARROW>(t);
-        self.rounded::<R, O>(point)
+        self.output::<R, O>(point, self.path.guard)
     }
 
-    fn rounded<R: RoundingMode, O: OverflowMode>(&mut self, point: Point) -> Point {
-        let (point, overflows) = self.path.rounded::<R, O>(point);
+    #[inline(always)]
+    fn output<R: RoundingMode, O: OverflowMode>(&mut self, register: Point, bits: u32) -> Point {
+        let (point, overflows) = self.path.output::<R, O>(register, bits);
         self.overflows += overflows;
         point
     }
@@ -280,9 +279,11 @@ impl Line {
     #[inline]
     pub(super) fn at<R: RoundingMode>(&self, k: u8) -> Point {
         let (near, far) = (i64::from(k), self.segments - i64::from(k));
-        // W + 4 bits over 5; the quotient is a coordinate of 48 bits at most
-        std::array::from_fn(|axis| {
-            self.divisor.divide::<R>(self.from[axis] * far + self.to[axis] * near, 1 << 48)
-        })
+        let mut point = [0; 4];
+        for (c, (from, to)) in point.iter_mut().zip(self.from.iter().zip(&self.to)) {
+            // W + 4 bits over 5; the quotient is a coordinate, 48 bits at most
+            *c = self.divisor.divide::<R>(from * far + to * near, 1 << 48);
+        }
+        point
     }
 }

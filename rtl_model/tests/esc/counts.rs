@@ -188,7 +188,7 @@ fn balances(result: &Result, settings: &Settings) {
 /// in a flat patch.
 #[test]
 fn a_flat_patch_is_tested_and_nothing_else() {
-    let at = |k: usize| [k as i64 % 4 << 20, (k / 4) as i64 * 5 << 18, 77, 1 << 26];
+    let at = |k: usize| [(k as i64 % 4) << 20, ((k / 4) as i64 * 5) << 18, 77, 1 << 26];
     let points: [_; 16] = std::array::from_fn(at);
     let patch = Patch { id: 0, points, saturated: false, cull: false, reversed: false };
     let object = points.map(|[x, y, z, _]| [x, y, z, 1 << 30]);

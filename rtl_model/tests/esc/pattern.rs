@@ -117,7 +117,7 @@ fn every_parameter_is_one_fraction() {
     let mut seen = BTreeMap::new();
     for n in 1..=48_u64 {
         for i in 0..=n {
-            let fx16 = ((2 * i << 16) + n) / (2 * n);
+            let fx16 = (((2 * i) << 16) + n) / (2 * n);
             let gcd = (1..=n).rfind(|d| n % d == 0 && i % d == 0).unwrap();
             let reduced = ((i / gcd) as u32, (n / gcd) as u32);
             assert_eq!(fraction(fx16 as u32), reduced, "{i} / {n}");
