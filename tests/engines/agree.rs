@@ -9,7 +9,7 @@ use rtl_model::counter::{Block, Counter};
 use std::ops::Add;
 use tessim::config::block::TIMED;
 use tessim::config::keys::KEYS;
-use tessim::config::{Config, Engine};
+use tessim::config::{Config, Engine, Unit};
 
 /// A configuration: its name, its preset, its settings, and whether unit `triangles` notices.
 type Case = (&'static str, &'static str, Vec<String>, bool);
@@ -148,7 +148,7 @@ fn timed_and_stepped_agree_under_every_kind_of_configuration() {
 
 /// Settings of the units that do not divide their patches as the hybrid does. The first of each
 /// unit is its default.
-const OTHER_UNITS: [&[&str]; 16] = [
+const OTHER_UNITS: [&[&str]; 23] = [
     &["unit=sfarti"],
     &["unit=sfarti", "level.termination=bounded"],
     &["unit=sfarti", "level.union=primitive"],
@@ -165,6 +165,13 @@ const OTHER_UNITS: [&[&str]; 16] = [
     &["unit=d3d11", "hull.policy=adaptive", "tessellator.partitioning=even", "block.hull.lanes=5"],
     &["unit=d3d11", "domain.width=1", "block.domain.lanes=7", "tessellator.partitioning=integer"],
     &["unit=d3d11", "level.level=1", "block.connect.interval=9", "block.points.fifo=1"],
+    &["unit=esc"],
+    &["unit=esc", "esc.width=4", "block.surface.lanes=3", "esc.mu=0"],
+    &["unit=esc", "esc.width=1", "frames=overlap", "block.group.fifo=1", "link.transfer=pull"],
+    &["unit=esc", "esc.width=7", "esc.reuse=coarse_triangle", "memory.channels=shared"],
+    &["unit=esc", "esc.output_values=1024", "esc.level_max=3", "esc.width=16", "esc.space=object"],
+    &["unit=esc", "esc.reuse=none", "esc.level=distance", "esc.scope=object", "esc.width=2"],
+    &["unit=esc", "esc.level=screen_size", "esc.width=3", "block.emit.interval=9"],
 ];
 
 #[test]
@@ -200,18 +207,25 @@ fn meshes_do_not_change(text: &str, config: &Config, counted: &Said) {
         sink.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
     ];
     let again = report.total(Counter::DomainRepeated);
-    assert_eq!(vertices as u64 + again, report.total(Counter::EmitVertices));
+    let leave = report.total(Counter::EmitVertices);
+    // A surface shader may give a point more than once, which the mesh has once.
+    let once =
+        if config.unit == Unit::Esc { Counter::SurfacePoints } else { Counter::EmitVertices };
+    assert_eq!(vertices as u64 + again, report.total(once));
+    assert!(vertices as u64 <= leave);
     assert_eq!(triangles as u64, report.total(Counter::EmitTriangles));
     assert_eq!(sink.meshes.len() as u64, report.total(Counter::LevelPatches));
 }
 
-/// The setting of a unit that has the block.
-fn unit_with(block: Block) -> &'static str {
-    use Block::{Connect, Domain, Factors, Hull, Points};
-    match block {
+/// Settings of a unit that has the block: waves of a few patches, so that there are several.
+fn unit_with(block: Block) -> [&'static str; 2] {
+    use Block::{Connect, Domain, Factors, Group, Hull, Points, Surface};
+    let unit = match block {
         Hull | Factors | Points | Connect | Domain => "unit=d3d11",
+        Group | Surface => "unit=esc",
         _ => "unit=hybrid",
-    }
+    };
+    [unit, "esc.width=4"]
 }
 
 /// A setting of a block's key that is far from its default.
@@ -224,6 +238,7 @@ fn far(block: Block, key: &str) -> Option<[String; 2]> {
         "lanes" => ("interval=90", "3"),
         "fifo" => ("interval=90", "300"),
         "setup" => ("latency=0", "300"),
+        "net" | "test" | "point" | "slot" => ("latency=0", "900"),
         _ => return None, // which of equal lanes takes a token often makes no difference
     };
     Some([path(base), format!("{}={value}", path(key))])
@@ -234,20 +249,20 @@ fn every_key_of_a_block_makes_a_difference_that_both_engines_see() {
     let text = runs::teacups(3, 2, 4);
     let mut changed = 0;
     for block in TIMED {
-        let unit = unit_with(block);
+        let [unit, width] = unit_with(block);
         let prefix = format!("block.{}.", block.name());
         for key in KEYS.iter().filter_map(|key| key.path.strip_prefix(&prefix)) {
             let Some([base, far]) = far(block, key) else { continue };
             let what = format!("{far} beside {base}");
             let ((before, _), (after, _)) = (
-                both(&what, &text, &set(&[unit, &base])),
-                both(&what, &text, &set(&[unit, &base, &far])),
+                both(&what, &text, &set(&[unit, width, &base])),
+                both(&what, &text, &set(&[unit, width, &base, &far])),
             );
             assert_ne!(before, after, "{what} changes nothing");
             changed += 1;
         }
     }
-    assert_eq!(changed, 16 * 5 + 1, "every key but the order of lanes");
+    assert_eq!(changed, 18 * 5 + 1 + 4, "every key but the order of lanes");
     println!("compared {changed} pairs of runs");
 }
 
@@ -288,7 +303,7 @@ fn any(random: &mut Random) -> Config {
     let mut settings = vec![
         format!("clock_mhz={}", random.of([50, 400, 2000])),
         format!("frames={}", random.of(["drain", "overlap"])),
-        format!("unit={}", random.of(["hybrid", "sfarti", "moreton", "triangles", "d3d11"])),
+        format!("unit={}", random.of(UNITS)),
         format!("hull.policy={}", random.of(["criterion", "adaptive"])),
         format!("hull.to_memory={}", random.of(["false", "true"])),
         format!("tessellator.partitioning={}", random.of(["integer", "pow2", "odd", "even"])),
@@ -297,6 +312,14 @@ fn any(random: &mut Random) -> Config {
         format!("domain.width={}", random.of([1, 4, 64])),
         format!("level.termination={}", random.of(["eight_curves", "bounded"])),
         format!("level.union={}", random.of(["off", "primitive"])),
+        format!("esc.level={}", random.of(["criterion", "fixed", "distance", "screen_size"])),
+        format!("esc.mu={}", random.of(["0", "0.5", "4"])),
+        format!("esc.reuse={}", random.of(["none", "coarse_triangle", "patch"])),
+        format!("esc.space={}", random.of(["pixels", "object"])),
+        format!("esc.output_values={}", random.of([264, 1024, 65536])),
+        format!("esc.width={}", random.of([1, 2, 5, 64, 1024])),
+        format!("esc.register_file={}", random.octaves(100.0, 65536.0) as u32),
+        format!("block.surface.point={}", random.integer(0, 20)),
         format!("link.bus={}", random.of(["agp1x", "agp8x", "pcie1x1", "pcie4x16"])),
         format!("link.transfer={}", random.of(["push", "pull"])),
         format!("link.latency={}", random.integer(0, 300)),
@@ -329,6 +352,8 @@ fn any(random: &mut Random) -> Config {
     set(&settings.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
+const UNITS: [&str; 6] = ["hybrid", "sfarti", "moreton", "triangles", "d3d11", "esc"];
+
 const METHODS: [&str; 5] = ["off", "net_facets", "tangent_plane", "normal_cone", "hull_literal"];
 
 #[test]
@@ -358,8 +383,11 @@ fn timed_and_stepped_agree_under_any_configuration() {
 fn without_an_engine_all_but_the_cycles_is_the_same() {
     let mut rows = 0;
     let overlap = ["frames=overlap", "vertex_shader.to_memory=true", "memory.channels=shared"];
+    let invocations = ["unit=esc", "esc.width=8", "esc.output_values=1024", "esc.level_max=7"];
     for (name, text) in traces() {
-        for settings in [&[][..], &["unit=triangles"], &["link.transfer=pull"], &overlap] {
+        for settings in
+            [&[][..], &["unit=triangles"], &["link.transfer=pull"], &overlap, &invocations]
+        {
             let config = set(settings);
             let [timed, none] =
                 [Engine::Timed, Engine::None].map(|engine| run_by(engine, &text, &config));
@@ -381,6 +409,9 @@ fn threads_and_meshes_do_not_change_what_is_timed() {
     let traces = [runs::grid(66, 1), runs::teacups(170, 2, 1), runs::shipped("mesh")];
     let unified = ["unit=sfarti", "level.union=primitive"];
     let shaders = ["unit=d3d11", "domain.cache_entries=8", "hull.to_memory=true"];
+    let invocations = ["unit=esc", "esc.width=24", "esc.reuse=coarse_triangle"];
+    let objects =
+        ["unit=esc", "esc.scope=object", "esc.level=distance", "esc.space=object", "esc.width=100"];
     let mut runs = 0;
     for (k, text) in traces.iter().enumerate() {
         for settings in [
@@ -389,6 +420,8 @@ fn threads_and_meshes_do_not_change_what_is_timed() {
             &["memory.channels=shared"],
             &unified,
             &shaders,
+            &invocations,
+            &objects,
         ] {
             let config = set(settings);
             let expected = said(&runs::run(text, &config));

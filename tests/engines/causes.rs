@@ -195,6 +195,40 @@ fn each_stage_of_shaders_and_tessellator_is_used_for_what_it_does() {
 }
 
 #[test]
+fn a_wave_of_surfaces_takes_its_longest_invocation_and_processors_share_waves() {
+    // Level 3 and no tests: a net, 169 points, 288 slots, of 4 cycles an instruction.
+    let wave = 4 * (64 + 169 * 16 + 288 * 4);
+    let uniform = |settings: &[&str]| {
+        let fixed = ["unit=esc", "esc.level=fixed", "esc.fixed_level=3", "esc.mu=0"];
+        run(&runs::shipped("teapot"), &set(&[&fixed[..], settings].concat()))
+    };
+    let one = uniform(&[]);
+    let kept = one.total(Counter::LevelPatches);
+    assert!(kept > 4 && kept < 32, "some of the teapot is culled");
+    // Whether one patch or all of them: the lanes do the same side by side.
+    assert_eq!(row(&one, "surface", "cycles.used"), wave);
+    assert!(used(&one, "surface") > 0.5);
+    let serial = uniform(&["esc.width=1"]);
+    assert_eq!(row(&serial, "surface", "cycles.used"), kept * wave);
+    // Two processors take waves in turn, and the last one may be alone.
+    let two = uniform(&["esc.width=1", "block.surface.lanes=2"]);
+    assert_eq!(row(&two, "surface", "cycles.used"), kept * wave);
+    let [serial, two] = [&serial, &two].map(elapsed);
+    assert!(serial >= kept * wave && serial < (kept + 1) * wave, "{serial} cycles");
+    let share = kept.div_ceil(2) * wave;
+    assert!(two >= share && two < share + wave, "{two} cycles");
+    // Emit takes a point, or a triangle, a cycle: 288 are more than 169.
+    let slow = uniform(&["esc.width=1", "block.emit.interval=3"]);
+    assert_eq!(row(&slow, "emit", "cycles.used"), 3 * 288 * kept);
+    // Sections of five coarse triangles: four invocations, of which the last has three.
+    let sections = uniform(&["esc.width=4", "esc.output_values=1024", "esc.level_max=3"]);
+    let points = row(&sections, "surface", "evaluations") + row(&sections, "surface", "corners");
+    let used = row(&sections, "surface", "lane_cycles.used");
+    assert_eq!(used, 4 * (4 * 64 * kept + 16 * points + 4 * 288 * kept));
+    println!("compared {serial} with {two} cycles, {kept} patches");
+}
+
+#[test]
 fn what_a_hull_shader_writes_holds_memory_for_its_bytes() {
     // 40 MB/s at 2 GHz: a byte takes 50 cycles, a patch of nine bursts of 32 bytes 14 400.
     let slow = ["hull.to_memory=true", "memory.bandwidth_mb_s=40"];

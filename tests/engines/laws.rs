@@ -60,7 +60,7 @@ fn frame(report: &Report, frame: &Frame, of_run: bool) -> usize {
 fn every_cycle_of_every_lane_is_in_one_row() {
     let port = ["memory.channels=shared", "vertex_shader.to_memory=true"];
     let lanes = ["block.evaluate.lanes=3", "block.stitch.lanes=2", "block.backface.lanes=4"];
-    let configurations: [Vec<&str>; 7] = [
+    let configurations: [Vec<&str>; 9] = [
         vec![],
         vec!["unit=triangles", "link.bus=agp1x"],
         vec!["unit=triangles", "block.vertex_shader.lanes=7", "block.vertex_shader.interval=9"],
@@ -68,6 +68,8 @@ fn every_cycle_of_every_lane_is_in_one_row() {
         vec![port[0], port[1], "memory.bandwidth_mb_s=9000", lanes[0]],
         vec!["unit=d3d11", port[0], "hull.to_memory=true", "block.domain.lanes=3"],
         vec!["block.emit.interval=2", "block.level.interval=30", "link.transfer=pull"],
+        vec!["unit=esc", "esc.width=5", "block.surface.lanes=3", port[0]],
+        vec!["unit=esc", "esc.width=2", "esc.reuse=none", "block.emit.interval=40"],
     ];
     let (mut rows, mut kinds) = (0, HashMap::<String, u64>::new());
     for text in [runs::shipped("mesh"), runs::teacups(3, 3, 4), runs::resident_grid(18, 3)] {
