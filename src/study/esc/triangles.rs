@@ -92,8 +92,8 @@ impl Test {
     /// inserted to where hardly any is.
     const fn octaves(self) -> [i32; 2] {
         match self.space {
-            Space::Pixels => [-8, 7],
-            Space::Object => [-16, -1],
+            Space::Pixels => [-6, 5],
+            Space::Object => [-13, -3],
         }
     }
 

@@ -35,7 +35,7 @@ fn uniform_patterns_have_288_triangles_a_patch_at_level_3_and_fractions_fall_wit
     }
     let text = text(&study);
     assert!(text.contains("811 x 288, equal") && !text.contains("NOT EQUAL"), "{text}");
-    assert_eq!(csv(&study).lines().count(), 1 + 4 * (16 + 4));
+    assert_eq!(csv(&study).lines().count(), 1 + 2 * (12 + 11) + 4 * 4);
     let picture = svg(&study).unwrap();
     assert!(picture.contains("paper, medium") && picture.contains("net, pixels, size 1.00"));
     assert_eq!(picture.matches("net, pixels, size").count(), 2, "of either size");
