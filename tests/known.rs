@@ -4,14 +4,20 @@
 
 #[path = "known/d3d11.rs"]
 mod d3d11;
+#[path = "known/esc.rs"]
+mod esc;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/random.rs"]
 mod random;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/run.rs"]
 mod run;
+#[path = "known/surfaces.rs"]
+mod surfaces;
 #[path = "known/units.rs"]
 mod units;
+#[path = "known/waves.rs"]
+mod waves;
 
 use rtl_model::counter::Counter as C;
 use rtl_model::counter::Counters;
@@ -189,6 +195,7 @@ fn laws(c: &Counters, config: &Config) {
     equal(c, config);
     at_most(c, config);
     d3d11::laws(c, config);
+    esc::laws(c, config);
 }
 
 fn equal(c: &Counters, config: &Config) {
@@ -210,9 +217,10 @@ fn equal(c: &Counters, config: &Config) {
         + get(C::MemoryWrittenAttributes)
         + get(C::MemoryReadPatches)
         + get(C::MemoryWrittenPatches);
+    let indexed = if esc::is_indexed(config) { get(C::EmitTriangles) } else { 0 };
     let emit = u64::from(config.emit.vertex_bytes) * get(C::EmitVertices)
         + get(C::EmitAttributeBytes)
-        + 3 * u64::from(config.emit.index_bytes) * get(C::EmitTriangles);
+        + 3 * u64::from(config.emit.index_bytes) * indexed;
     // Before transform the points are as they came, and all patches are kept.
     let object = config.unit.in_object_space();
     let or_0 = |counter| if object { 0 } else { get(counter) };
@@ -231,17 +239,29 @@ fn equal(c: &Counters, config: &Config) {
             get(C::AssembleMeasured),
         ),
         (clipped + culled + tessellated, get(C::TracePatches)),
-        (get(C::LinkFactors), if object { 16 * get(C::TracePatches) } else { 0 }),
+        (
+            get(C::LinkFactors),
+            if object { 16 * get(C::TracePatches) } else { esc::link_factors(c, config) },
+        ),
         (get(C::ClipIn), or_0(C::AssemblePatches)),
         (get(C::ClipIn) - get(C::ClipCulled), get(C::BackfaceIn)),
         (kept, get(C::LevelPatches) + get(C::PlaceMeasured)),
-        (get(C::EvaluateVertices) + get(C::DomainInvocations), get(C::EmitVertices)),
-        (get(C::StitchTriangles) + get(C::ConnectTriangles), get(C::EmitTriangles)),
+        (
+            get(C::EvaluateVertices) + get(C::DomainInvocations) + esc::vertices(c, config),
+            get(C::EmitVertices),
+        ),
+        (
+            get(C::StitchTriangles) + get(C::ConnectTriangles) + get(C::SurfaceTriangles),
+            get(C::EmitTriangles),
+        ),
         (get(C::EvaluateVertices), get(C::VertexShaderInvocations)),
         (get(C::EmitBytes), emit),
         (
             get(C::EmitAttributeBytes),
-            (get(C::EvaluateAttributes) + get(C::DomainAttributes))
+            [C::EvaluateAttributes, C::DomainAttributes, C::SurfaceAttributes]
+                .map(get)
+                .iter()
+                .sum::<u64>()
                 * config.attributes.component_bytes(),
         ),
         ((get(C::AssembleCorners) + get(C::AssembleCornersReused)) % 4, 0),
@@ -283,7 +303,10 @@ fn at_most(c: &Counters, config: &Config) {
         // 2V - B - 2 with at least 4 boundary vertices a patch
         (get(C::EmitTriangles), 2 * get(C::EmitVertices) - 6 * get(C::LevelPatches)),
         (get(C::LevelFlatness) + get(C::LevelEdgeLength), get(C::LevelPatches)),
-        (get(C::LevelPatches), get(C::EvaluateStrips) + get(C::DomainWaves)),
+        (
+            get(C::LevelPatches),
+            get(C::EvaluateStrips) + get(C::DomainWaves) + get(C::SurfaceInvocations),
+        ),
         (get(C::EvaluateStrips), get(C::StitchTriangles)),
     ];
     for (k, (a, b)) in at_most.iter().enumerate() {
@@ -332,6 +355,7 @@ fn counters_conserve_what_flows_under_every_configuration() {
         config.assemble.cache_entries = random.of([0, 1, 16, 32, 200]);
         config.attributes.width = random.of([17, 32, 46]);
         d3d11::vary(&mut random, &mut config);
+        esc::vary(&mut random, &mut config);
         for name in SHIPPED {
             let report = run_text(&shipped(name), &config).expect("a shipped trace");
             for frame in &report.frames {

@@ -162,7 +162,8 @@ fn same(
     let (indexed, indexed_counters) = surface.draw(indexed, resident, config);
     assert!(own == indexed, "{primitive:?} is other than its indexed mesh");
     let made = own.0.iter().map(|mesh| mesh.vertices.len()).sum::<usize>() as u64;
-    let interpolated = [C::EvaluateAttributes, C::DomainAttributes].map(|c| own_counters.get(c));
+    let interpolated = [C::EvaluateAttributes, C::DomainAttributes, C::SurfaceAttributes];
+    let interpolated = interpolated.map(|c| own_counters.get(c));
     assert_eq!(interpolated.iter().sum::<u64>(), COMPONENTS as u64 * made);
     [own_counters, apart_counters, indexed_counters]
 }
@@ -217,7 +218,7 @@ fn paper(primitive: Primitive) -> (u64, u64) {
 fn check(random: &mut Random, primitive: Primitive, instances: u64) -> u64 {
     let mut config = Config::default();
     config.assemble.cache_entries = random.of([0, 5, 16, 32, 1000]);
-    config.unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton]);
+    config.unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton, Unit::Esc]);
     let [own, apart, indexed] = same(random, primitive, instances, &config);
     let transformed = if config.unit.in_object_space() { 0 } else { 1 };
     let (points, corners) = paper(primitive);

@@ -8,11 +8,14 @@ mod random;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "support/run.rs"]
 mod run;
+#[path = "watertight/surface.rs"]
+mod surface;
 #[path = "watertight/unified.rs"]
 mod unified;
 
 use glam::Vec3;
 use random::Random;
+use rtl_model::counter::Counters;
 use rtl_model::level::{Criterion, Termination};
 use rtl_model::number::{Overflow, Rounding};
 use rtl_model::patch::{EDGES, Level, ONE, Point};
@@ -35,9 +38,15 @@ struct Shared {
 }
 
 /// Vertices along an edge in the direction of its growing parameter: position and parameter.
-fn row(mesh: &Mesh, edge: usize) -> Vec<(Point, u32)> {
+fn row(unit: Unit, mesh: &Mesh, edge: usize) -> Vec<(Point, u32)> {
     let on = |v: &&rtl_model::patch::Vertex| [v.v == 0, v.u == ONE, v.v == ONE, v.u == 0][edge];
     let along = |v: &rtl_model::patch::Vertex| (v.position, if edge & 1 == 0 { v.u } else { v.v });
+    if unit == Unit::Esc {
+        // In the order of the strips; parameters of different vertices differ.
+        let mut row: Vec<_> = mesh.vertices.iter().filter(on).map(along).collect();
+        row.sort_unstable_by_key(|vertex| vertex.1);
+        return row;
+    }
     // Euler's formula: an inner vertex may have come to lie on an edge, too.
     let boundary = 2 * mesh.vertices.len() - mesh.triangles.len() - 2;
     let mut row: Vec<_> = mesh.vertices[..boundary].iter().filter(on).map(along).collect();
@@ -94,8 +103,11 @@ fn pair(random: &mut Random) -> ([Vec<[f32; 3]>; 2], Shared) {
     ([a, b], shared)
 }
 
+/// Those that tessellate.
+const UNITS: [Unit; 5] = [Unit::Hybrid, Unit::Sfarti, Unit::Moreton, Unit::D3d11, Unit::Esc];
+
 fn config(random: &mut Random) -> Config {
-    let unit = random.of([Unit::Hybrid, Unit::Sfarti, Unit::Moreton, Unit::D3d11]);
+    let unit = random.of(UNITS);
     let mut config = Config { unit, ..Config::default() };
     use Partitioning::{Even, Integer, Odd, Pow2};
     config.tessellator.partitioning = random.of([Integer, Pow2, Odd, Even]);
@@ -114,6 +126,7 @@ fn config(random: &mut Random) -> Config {
     }
     // A range that is too small now and then, so that saturation and wrapping are met.
     config.position.clip_range_log2 = [None, None, None, Some(1)][random.integer(0, 3) as usize];
+    surface::vary(random, &mut config);
     config
 }
 
@@ -168,13 +181,22 @@ fn alone(k: usize, patch: &[[f32; 3]]) -> [Command; 2] {
 }
 
 fn meshes(pairs: &[[Vec<[f32; 3]>; 2]], tessellation: Tessellation, config: &Config) -> Vec<Mesh> {
+    counted(pairs, tessellation, config).0
+}
+
+/// The meshes, and what the run counted.
+fn counted(
+    pairs: &[[Vec<[f32; 3]>; 2]],
+    tessellation: Tessellation,
+    config: &Config,
+) -> (Vec<Mesh>, Counters) {
     let mut keep = Keep::default();
     let mut whole = config.clone();
     whole.clip.enabled = false;
     let commands = commands(pairs, tessellation).into_iter().map(Ok);
-    simulate(commands, &whole, &mut keep).expect("the commands are well-formed");
+    let report = simulate(commands, &whole, &mut keep).expect("the commands are well-formed");
     assert_eq!(keep.meshes.len(), 2 * pairs.len());
-    keep.meshes
+    (keep.meshes, report.totals())
 }
 
 #[test]
@@ -182,18 +204,18 @@ fn shared_edges_are_bit_identical() {
     let mut random = Random::new(2);
     let (mut edges, mut vertices, mut uneven) = (0, 0, 0);
     let mut of_unit = [0; Unit::ALL.len()];
-    for _ in 0..scale(150, 25_000) {
+    for _ in 0..scale(250, 30_000) {
         let (config, tessellation) = (config(&mut random), tessellation(&mut random));
         let (pairs, shared): (Vec<_>, Vec<_>) = (0..PAIRS).map(|_| pair(&mut random)).unzip();
         let meshes = meshes(&pairs, tessellation, &config);
         for (k, shared) in shared.iter().enumerate() {
             let (a, b) = (&meshes[k], &meshes[PAIRS + k]);
-            let (ra, rb) = (row(a, shared.a), row(b, shared.b));
+            let (ra, rb) = (row(config.unit, a, shared.a), row(config.unit, b, shared.b));
             assert!(
                 same(&ra, &rb, shared.reversed),
                 "pair {k} {shared:?} under {config:?}, {tessellation:?}:\n{ra:?}\n{rb:?}"
             );
-            let segments = |m: &Mesh| [0, 1, 2, 3].map(|e| row(m, e).len());
+            let segments = |m: &Mesh| [0, 1, 2, 3].map(|e| row(config.unit, m, e).len());
             let others = [segments(a), segments(b)].concat();
             uneven += usize::from(others.iter().any(|&n| n != ra.len()));
             edges += 1;
@@ -206,11 +228,11 @@ fn shared_edges_are_bit_identical() {
          level; by unit {of_unit:?}"
     );
     assert!(
-        edges >= 6000 && vertices > 5 * edges,
+        edges >= 10_000 && vertices > 5 * edges,
         "only {edges} edges, {vertices} vertices compared"
     );
-    for unit in [Unit::Hybrid, Unit::Sfarti, Unit::Moreton, Unit::D3d11] {
-        assert!(of_unit[unit as usize] * 6 > edges, "{unit:?}: {of_unit:?} of {edges}");
+    for unit in UNITS {
+        assert!(of_unit[unit as usize] * 8 > edges, "{unit:?}: {of_unit:?} of {edges}");
     }
     assert!(2 * uneven >= edges, "levels differ on only {uneven} of {edges}");
 }
@@ -222,6 +244,7 @@ fn planted_faults_are_caught() {
     let (mut tried, mut surface_run, mut rounding) = (0, 0, 0);
     for _ in 0..20 {
         let mut right = Config::default();
+        let unit = right.unit;
         right.position.width = 24 + random.integer(0, 19);
         let mut flipped = right.clone();
         flipped.evaluate.rounding = Rounding::Floor;
@@ -233,22 +256,22 @@ fn planted_faults_are_caught() {
         let [right, flipped, surface] =
             [right, flipped, surface].map(|config| meshes(&pairs, tessellation, &config));
         for (k, shared) in shared.iter().enumerate() {
-            let good = row(&right[k], shared.a);
+            let good = row(unit, &right[k], shared.a);
             let collapsed = good.iter().all(|v| v.0 == good[0].0);
             if collapsed {
                 continue; // every evaluator makes the same point of it
             }
             tried += 1;
-            let neighbour = row(&right[PAIRS + k], shared.b);
+            let neighbour = row(unit, &right[PAIRS + k], shared.b);
             assert!(same(&good, &neighbour, shared.reversed));
             let middle = 2;
             // That vertex as the surface's own evaluator makes it, at the reported parameter; and
             // rounded down.
             let mut planted = good.clone();
-            planted[middle] = row(&surface[k], shared.a)[middle];
+            planted[middle] = row(unit, &surface[k], shared.a)[middle];
             surface_run += usize::from(!same(&planted, &neighbour, shared.reversed));
             let mut planted = good.clone();
-            planted[middle] = row(&flipped[k], shared.a)[middle];
+            planted[middle] = row(unit, &flipped[k], shared.a)[middle];
             rounding += usize::from(!same(&planted, &neighbour, shared.reversed));
         }
     }

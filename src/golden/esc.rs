@@ -9,6 +9,7 @@
 //! the right one; several empty rows are as one; above the first row there is the apex.
 
 pub mod resolution;
+pub mod surface;
 
 use std::cmp::Reverse;
 

@@ -9,7 +9,8 @@
 //!   backface       power basis, 256 bits         emit       x / w in f64
 //!   hull           hats, one denominator         domain     de Casteljau in f64
 //!   d3d11          ranks in one order of points, sorted segments
-//!   esc            lists of the uniform pattern, rewritten rule by rule; levels as quotients
+//!   esc            lists of the uniform pattern, rewritten rule by rule; levels as quotients;
+//!                  places as fractions of the square, Bernstein sums in f64
 //! ```
 //!
 //! A golden model has the name of its block, `rtl_model/src/NAME.rs`. `tests/agreement` compares

@@ -147,8 +147,9 @@ pub const PIECES: &[Piece] = &[
     Piece {
         block: Block::Port,
         meaning: "a control point rounded to the position format: 4 increments of W bits, for want \
-                  of a sum that could take them",
-        times: |f| f.get(C::PortPoints),
+                  of a sum that could take them; unit esc with tests in object units: as many \
+                  again for the same point there",
+        times: |f| f.get(C::PortPoints) * if f.wants_object() { 2 } else { 1 },
         once: |f| Ops::default().adds(4, f.w),
     },
     Piece {

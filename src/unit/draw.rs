@@ -77,7 +77,7 @@ impl<M: Make> Run<'_, M> {
         };
         // What the first of two passes takes.
         let bare = Source { points: source.points.clone(), attributes: None, ..source };
-        let bounds = esc::bounds(&source.points.source, self.config)?;
+        let bounds = esc::bounds(draw, &source.points.source, self.config)?;
         // The spans of the instance before, while the batch holds all of it.
         let mut whole = None;
         for model in &draw.models {

@@ -16,6 +16,7 @@ use super::pipeline::{Input, Make, Placed, Placing};
 use crate::config::{Config, LevelPolicy, LevelScope, Normals, Reuse, Unit};
 use crate::error::Result;
 use crate::shader::object_level::{self, Bounds};
+use crate::trace::command::Draw;
 use crate::trace::points::PointSource;
 use glam::Mat4;
 use rtl_model::counter::{Counter, Counters};
@@ -95,17 +96,28 @@ fn policy(config: &Config, frame: &FrameState) -> Policy {
 }
 
 /// Where the driver chooses a level for each instance of a draw: what it needs to know of the
-/// draw's points.
-pub(super) fn bounds(points: &PointSource, config: &Config) -> Result<Option<Bounds>> {
+/// draw's points. Others under their id are another object's.
+pub(super) fn bounds(draw: &Draw, points: &PointSource, config: &Config) -> Result<Option<Bounds>> {
     if config.unit != Unit::Esc || config.esc.scope == LevelScope::Patch {
         return Ok(None);
     }
     let mut bounds = Bounds::default();
     let mut some = Vec::new();
-    for first in (0..points.len()).step_by(POINTS) {
-        let count = (points.len() - first).min(POINTS as u64);
-        points.read(first, count as usize, &mut some)?;
+    let mut include = |first: u64, count: u64| -> Result<()> {
+        points.read(draw.first + first, count as usize, &mut some)?;
         some.iter().for_each(|&point| bounds.include(point));
+        Ok(())
+    };
+    if let Some(indices) = &draw.indices {
+        let mut named = indices.points.concat();
+        named.sort_unstable();
+        named.dedup();
+        named.into_iter().try_for_each(|index| include(index.into(), 1))?;
+    } else {
+        let count = draw.primitive.points().expect("a draw without indices says how many");
+        for first in (0..count).step_by(POINTS) {
+            include(first, (count - first).min(POINTS as u64))?;
+        }
     }
     Ok(Some(bounds))
 }

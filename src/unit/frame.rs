@@ -1,7 +1,7 @@
 //! What is constant over a frame, derived once from its camera: the position format, the near
 //! threshold, which sign of a determinant faces the viewer, and the way back to world space.
 
-use crate::config::Config;
+use crate::config::{Config, Unit};
 use crate::error::{Error, Result};
 use crate::shader::control_point;
 use crate::trace::command::Frame;
@@ -31,7 +31,8 @@ impl FrameState {
     ///
     /// # Errors
     /// [`Error::Usage`] when the far plane is infinite and neither the trace nor the configuration
-    /// gives a range.
+    /// gives a range; when unit `esc` tests in an object space whose range has no 1, or too few
+    /// bits for it.
     pub fn new(frame: &Frame, config: &Config) -> Result<Self> {
         let projection = Mat4::from_cols_array(&frame.projection);
         let view = Mat4::from_cols_array(&frame.view);
@@ -47,6 +48,15 @@ impl FrameState {
         let position = Format::of_range(config.position.width, range_log2);
         let object_log2 = frame.range.object.unwrap_or(config.position.object_range_log2);
         let object = Format::of_range(config.position.width, object_log2);
+        let wanted = config.unit == Unit::Esc && config.esc.tests_in_object_space();
+        if wanted && !(0..object.width as i32).contains(&object.fraction) {
+            return Err(Error::Usage(format!(
+                "a range of 2^{object_log2} in object space: esc.space object has a w of 1 beside \
+                 coordinates of {} bits, so expected 0..={}",
+                object.width,
+                object.width - 1
+            )));
+        }
         let near = config.level.near.unwrap_or(depths.nearest * (1.0 - TOLERANCE));
         let clip_from_world = control_point::concatenate(&projection, &view);
         let exact = projection.as_dmat4() * view.as_dmat4();

@@ -18,6 +18,8 @@ pub(crate) struct Ledger {
     pub(crate) untested: u64,
     /// Patches whose levels by size on the screen rounding may take either way.
     pub(crate) unsized_edges: u64,
+    /// The same of the surface shader's.
+    pub(crate) unclear: u64,
 }
 
 #[derive(Clone, Default)]
@@ -36,6 +38,7 @@ impl Ledger {
             undecided: 0,
             untested: 0,
             unsized_edges: 0,
+            unclear: 0,
         }
     }
 
@@ -105,6 +108,7 @@ impl Ledger {
             (Quantity::LevelDivided, self.undecided),
             (Quantity::HullDecision, self.untested),
             (Quantity::EscScreen, self.unsized_edges),
+            (Quantity::EscDecision, self.unclear),
         ] {
             let (row, decided) =
                 (&TABLE[quantity as usize], self.tallies[quantity as usize].compared);

@@ -16,6 +16,7 @@ mod random;
 mod resolutions;
 mod samples;
 mod shaders;
+mod surfaces;
 mod table;
 #[allow(dead_code, reason = "tests/accuracy.rs reads what is left over here")]
 #[path = "../support/walk.rs"]

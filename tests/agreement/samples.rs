@@ -11,6 +11,7 @@ use super::planes::{self, Source};
 use super::random::{Kind, Random, patch};
 use super::resolutions;
 use super::shaders;
+use super::surfaces;
 use super::table::{At, Quantity as Q};
 use super::walk;
 use glam::{DMat4, DVec3};
@@ -83,6 +84,11 @@ pub(crate) fn random(ledger: &mut Ledger, scale: u32) {
     insertions::all(ledger);
     for _ in 0..10_000 * scale {
         insertions::random(ledger, &mut random);
+    }
+    for _ in 0..1_500 * scale {
+        let width = random.integer(8, 48);
+        let view = view(&mut random, width);
+        surfaces::random(ledger, &mut random, &view);
     }
 }
 
@@ -290,6 +296,7 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
         blocks::clip(ledger, patch, view);
         blocks::backface(ledger, patch, view);
         shaders::trace(ledger, drawn);
+        surfaces::trace(ledger, drawn);
         let levels = levels::level(ledger, patch, view, &drawn.state);
         for (level_max, part) in [(3, [0.5, 0.25]), (15, [0.9, 0.05])] {
             resolutions::compare(ledger, (patch, view, &drawn.state), level_max, part);

@@ -97,6 +97,15 @@ pub(crate) enum Quantity {
     EscVertices,
     EscLists,
     EscTriangles,
+    EscCorner,
+    EscBoundary,
+    EscInside,
+    EscUnguarded,
+    EscParameter,
+    EscDecision,
+    EscSites,
+    EscMesh,
+    EscEvaluated,
 }
 
 /// A row of the table.
@@ -116,7 +125,7 @@ pub(crate) struct Row {
 }
 
 /// Half an ulp, or a whole one for a floor.
-fn rounding(at: &At) -> f64 {
+pub(crate) fn rounding(at: &At) -> f64 {
     if at.rounding == Rounding::Floor { 1.0 } else { 0.5 }
 }
 
@@ -162,6 +171,31 @@ fn weighted(at: &At) -> f64 {
 /// Whether the weights' roundings count for more than those of products.
 pub(crate) fn weights_matter(at: &At) -> bool {
     24.0 * at.spread > 8.0
+}
+
+/// A product's rounding, in ulps of the output.
+fn guarded(at: &At) -> f64 {
+    rounding(at) * 2f64.powi(-(at.guard as i32))
+}
+
+/// Horner's rule at t <= 1/2: three products, of which two are multiplied by t and t^2.
+pub(crate) fn half_run(at: &At) -> f64 {
+    rounding(at) + 1.75 * guarded(at) + at.spread + reference(at)
+}
+
+/// Horner's rule along v for four coefficients, then along u.
+pub(crate) fn horner(at: &At) -> f64 {
+    rounding(at) + 15.0 * guarded(at) + at.spread + reference(at)
+}
+
+/// Whether the products' roundings count for more than the output's.
+pub(crate) fn guard_matters(at: &At) -> bool {
+    15.0 * guarded(at) > rounding(at)
+}
+
+/// Whether the parameters' roundings count for more than the others.
+pub(crate) fn parameter_matters(at: &At) -> bool {
+    at.spread > rounding(at) + 15.0 * guarded(at) + reference(at)
 }
 
 /// A row whose items must be equal.
@@ -360,4 +394,30 @@ pub(crate) const TABLE: &[Row] = &[
         "decisions"),
     exact(Q::EscTriangles, "esc", "triangles in their order", 10_000,
         "decisions"),
+    exact(Q::EscCorner, "esc", "corners of patches", 4_000,
+        "copied"),
+    within(Q::EscBoundary, "esc", "samples on a patch's boundary, ulps", 50_000,
+        half_run,
+        "exact coefficients; three products at t <= 1/2, of which two are multiplied by t and \
+         t^2; the output's rounding"),
+    within(Q::EscInside, "esc", "samples inside, ulps", 100_000,
+        horner,
+        "exact coefficients; three products along u, in each of four coefficients, and three \
+         along v; the output's rounding"),
+    within(Q::EscUnguarded, "esc", "of few guard bits, samples inside, ulps", 50_000,
+        horner,
+        "the same bound where the products' part is the greater"),
+    within(Q::EscParameter, "esc", "of few parameter bits, samples, ulps", 50_000,
+        horner,
+        "spread: half an ulp of each parameter times the slope along it, where that is the \
+         greater part"),
+    exact(Q::EscDecision, "esc", "decisions to insert a vertex", 20_000,
+        "compared where the distance from the threshold, and w from the near one, is more than \
+         roundings add up to"),
+    exact(Q::EscSites, "esc", "vertices of a patch as exact fractions", 1_000,
+        "the levels' fractions, and decisions"),
+    exact(Q::EscMesh, "esc", "triangles of a patch in their order", 1_000,
+        "decisions"),
+    exact(Q::EscEvaluated, "esc", "vertices evaluated, listed, distinct and moved", 1_000,
+        "counts, from lists and sets"),
 ];

@@ -52,7 +52,7 @@ pub(super) fn count<R: RoundingMode, O: OverflowMode, const NARROW: bool>(
     let differs = |site: &[u64; 2]| {
         let mut points = turned.iter().map(|(turn, net)| {
             let [u, v] = turn.site(*site, path.bits);
-            path.rounded::<R, O>(net.row::<R, NARROW>(v).at::<R, NARROW>(u)).0
+            path.output::<R, O>(net.row::<R, NARROW>(v).at::<R, NARROW>(u), path.guard).0
         });
         let own = points.next();
         points.any(|other| Some(other) != own)

@@ -55,12 +55,28 @@ enum Class {
 
 fn class([i, j]: Place, segments: u8) -> Class {
     let last = 3 * segments;
-    match [i, j].iter().filter(|&&line| line == 0 || line == last).count() {
-        2 => Class::Corner,
-        1 => Class::Boundary,
-        _ if [i, j, i + j].iter().any(|line| line % segments == 0) => Class::Coarse,
+    let outer = |line| line == 0 || line == last;
+    // Diagonals are where i + j is a third, to 6 R.
+    let third = |line: u8| [1, 2, 3, 4, 5].iter().any(|k| line == k * segments);
+    match (outer(i), outer(j)) {
+        (true, true) => Class::Corner,
+        (true, false) | (false, true) => Class::Boundary,
+        _ if third(i) || third(j) || third(i + j) => Class::Coarse,
         _ => Class::Interior,
     }
+}
+
+fn index([i, j]: Place) -> usize {
+    usize::from(j) * LINES_MAX + usize::from(i)
+}
+
+/// What is known of a place.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spot {
+    /// The last scope that saw it.
+    stamp: u32,
+    /// Its vertex's number and one, or 0.
+    number: u16,
 }
 
 /// Makes meshes, in stores that it keeps.
@@ -68,10 +84,8 @@ fn class([i, j]: Place, segments: u8) -> Class {
 pub(super) struct Walker {
     counting: Counting,
     sections: Sections,
-    /// By place of the grid: the vertex's number and one, or 0.
-    numbers: Vec<u16>,
-    /// By place of the grid: the last scope that evaluated it.
-    stamps: Vec<u32>,
+    /// By place of the grid.
+    spots: Vec<Spot>,
     /// Within a scope a point is evaluated once.
     scope: u32,
     levels: Levels,
@@ -83,8 +97,7 @@ impl Walker {
         Self {
             counting,
             sections,
-            numbers: vec![0; LINES_MAX * LINES_MAX],
-            stamps: vec![0; LINES_MAX * LINES_MAX],
+            spots: vec![Spot::default(); LINES_MAX * LINES_MAX],
             scope: 0,
             levels: Levels { edges: [0; 4], interior: 0 },
             masks: [0; COARSE_EDGES],
@@ -94,8 +107,7 @@ impl Walker {
     /// Makes the mesh of `levels` and `masks`.
     pub(super) fn walk(&mut self, levels: Levels, masks: &Masks, mesh: &mut Mesh) {
         (self.levels, self.masks) = (levels, *masks);
-        self.numbers.fill(0);
-        self.stamps.fill(0);
+        self.spots.fill(Spot::default());
         self.scope = 0;
         mesh.of = Some((levels, *masks));
         mesh.triangles.clear();
@@ -187,13 +199,9 @@ impl Walker {
                 }
             }
             for sites in strip.slots().flatten() {
-                let numbered = sites.map(|site: Site| {
-                    let place = triangle.place(site, interior + 1);
-                    if self.counting.reuse != Reuse::None && self.is_new(place) {
-                        self.count(place, &mut mesh.made);
-                    }
-                    self.number(place, mesh)
-                });
+                let [a, b, c] = sites;
+                let mut number = |site| self.number(triangle.place(site, interior + 1), mesh);
+                let numbered = [number(a), number(b), number(c)];
                 mesh.triangles.push(numbered);
             }
         }
@@ -208,28 +216,29 @@ impl Walker {
         } += 1;
     }
 
-    fn index(&self, [i, j]: Place) -> usize {
-        usize::from(j) * LINES_MAX + usize::from(i)
-    }
-
     /// Whether the scope sees a place for the first time.
     fn is_new(&mut self, place: Place) -> bool {
-        let index = self.index(place);
-        let stamp = &mut self.stamps[index];
+        let stamp = &mut self.spots[index(place)].stamp;
         let new = *stamp != self.scope;
         *stamp = self.scope;
         new
     }
 
     /// The number of the vertex at a place, a new one where it has none.
+    #[inline(always)]
     fn number(&mut self, place: Place, mesh: &mut Mesh) -> u16 {
-        let index = self.index(place);
-        let number = &mut self.numbers[index];
-        if *number == 0 {
-            mesh.places.push(place);
-            *number = mesh.places.len() as u16; // at most 2401
+        let index = index(place);
+        if self.spots[index].stamp != self.scope {
+            self.spots[index].stamp = self.scope;
+            if self.counting.reuse != Reuse::None {
+                self.count(place, &mut mesh.made);
+            }
+            if self.spots[index].number == 0 {
+                mesh.places.push(place);
+                self.spots[index].number = mesh.places.len() as u16; // at most 2401
+            }
         }
-        *number - 1
+        self.spots[index].number - 1
     }
 
     /// Counts what the tests of the scope evaluated and the mesh did not get.
@@ -240,11 +249,11 @@ impl Walker {
         // In another space, no point of the mesh is of use.
         self.scope += u32::from(tests == Tests::Apart);
         for (number, edge) in CoarseEdge::ALL.iter().enumerate() {
-            if tested >> number & 1 == 0 {
+            let level = edge.level(self.levels);
+            if tested >> number & 1 == 0 || level == 0 {
                 continue;
             }
             self.scope += u32::from(reuse == Reuse::None); // each test on its own
-            let level = edge.level(self.levels);
             let candidates = (1..=level).map(|k| slot(k, level, interior));
             let ends = [0, segments].into_iter().filter(|_| ends);
             for position in candidates.chain(ends) {

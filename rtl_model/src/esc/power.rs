@@ -11,7 +11,7 @@
 //! 1, 6), the next a divided difference, at most 6, the last a point of the hull, 1. So registers
 //! of W + 8 + guard bits hold everything, with room for the roundings.
 
-use crate::number::{RoundingMode, shift_right, shift_right_wide};
+use crate::number::{Rounding, RoundingMode, shift_right};
 use crate::patch::Point;
 
 /// Bits that the power basis of a surface needs above a coordinate's.
@@ -53,11 +53,14 @@ impl Cubic {
     #[inline(always)]
     pub(super) fn at<R: RoundingMode, const NARROW: bool>(&self, t: Parameter) -> Point {
         let [c0, c1, c2, c3] = &self.0;
-        std::array::from_fn(|k| {
+        let mut point = [0; 4];
+        // A loop, for closures of array methods are not always inlined.
+        for k in 0..4 {
             let second = c2[k] + product::<R, NARROW>(c3[k], t);
             let first = c1[k] + product::<R, NARROW>(second, t);
-            c0[k] + product::<R, NARROW>(first, t)
-        })
+            point[k] = c0[k] + product::<R, NARROW>(first, t);
+        }
+        point
     }
 }
 
@@ -65,10 +68,21 @@ impl Cubic {
 #[inline(always)]
 fn product<R: RoundingMode, const NARROW: bool>(c: i64, t: Parameter) -> i64 {
     if NARROW {
-        shift_right::<R>(c * t.fx as i64, t.bits)
-    } else {
-        shift_right_wide::<R>(i128::from(c) * i128::from(t.fx), t.bits) as i64
+        return shift_right::<R>(c * t.fx as i64, t.bits);
     }
+    // As `shift_right_wide` has it, in 64 bits: t is at most 1, so that the result fits.
+    let exact = i128::from(c) * i128::from(t.fx);
+    let (high, low) = ((exact >> 64) as u64, exact as u64);
+    let floor = (high << (64 - t.bits) | low >> t.bits) as i64;
+    let half = 1 << (t.bits - 1);
+    let cut = low & (2 * half - 1);
+    let up = match R::MODE {
+        Rounding::Floor => false,
+        Rounding::NearestUp => cut >= half,
+        Rounding::NearestEven => cut + (floor as u64 & 1) > half,
+        Rounding::NearestAway => cut >= half + u64::from(c < 0),
+    };
+    floor + i64::from(up)
 }
 
 /// `[N][B][M]^T` of a surface.
@@ -92,6 +106,84 @@ impl Net {
     /// The curve of constant v.
     #[inline(always)]
     pub(super) fn row<R: RoundingMode, const NARROW: bool>(&self, v: Parameter) -> Cubic {
-        Cubic([0, 1, 2, 3].map(|power: usize| self.by_u[power].at::<R, NARROW>(v)))
+        let [a, b, c, d] = &self.by_u;
+        let at = |curve: &Cubic| curve.at::<R, NARROW>(v);
+        Cubic([at(a), at(b), at(c), at(d)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Floor, NearestAway, NearestEven, NearestUp, shift_right_wide};
+    use proptest::prelude::*;
+
+    fn same<R: RoundingMode>(c: i64, t: Parameter) {
+        let exact = shift_right_wide::<R>(i128::from(c) * i128::from(t.fx), t.bits) as i64;
+        assert_eq!(product::<R, false>(c, t), exact, "{c} {t:?} {:?}", R::MODE);
+        if (i128::from(c) * i128::from(t.fx)) >> 61 == i128::from(c >> 63) {
+            assert_eq!(product::<R, true>(c, t), exact, "{c} {t:?} {:?}", R::MODE);
+        }
+    }
+
+    fn all_same(c: i64, t: Parameter) {
+        same::<Floor>(c, t);
+        same::<NearestUp>(c, t);
+        same::<NearestEven>(c, t);
+        same::<NearestAway>(c, t);
+    }
+
+    /// By definition, exact: sum of P_ij N_i(v) N_j(u) over the power basis.
+    fn coefficient(points: &[Point; 16], a: usize, b: usize, axis: usize) -> i64 {
+        const N: [[i64; 4]; 4] = [[1, 0, 0, 0], [-3, 3, 0, 0], [3, -6, 3, 0], [-1, 3, -3, 1]];
+        (0..16).map(|k| N[a][k % 4] * N[b][k / 4] * points[k][axis]).sum()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn a_product_is_rounded_as_the_wide_one(
+            c in -(1_i64 << 62)..1 << 62, shift in 0u32..60, bits in 16u32..=46, fx: u64,
+            tie: bool,
+        ) {
+            let fx = if tie { 1 << (bits - 1) } else { fx & ((1 << bits) - 1) };
+            all_same(c >> shift, Parameter { fx, bits });
+            all_same(c >> shift, Parameter { fx: 1 << bits, bits });
+        }
+
+        #[test]
+        fn the_net_is_exact_and_fits_eight_bits_more(
+            raw in proptest::array::uniform32(-(1_i64 << 47) + 1..1_i64 << 47), width in 8u32..=48,
+            extreme: u16,
+        ) {
+            let max = (1_i64 << (width - 1)) - 1;
+            let points: [Point; 16] = std::array::from_fn(|k| {
+                let end = if extreme >> k & 1 == 1 { max } else { -max };
+                [raw[k] >> (48 - width), raw[k + 16] >> (48 - width), end, 1]
+            });
+            let guard = (63 - NET_BITS - width).min(20);
+            let net = Net::of(&points, guard);
+            for (a, curve) in net.by_u.iter().enumerate() {
+                for (b, got) in curve.0.iter().enumerate() {
+                    for (axis, c) in got.iter().enumerate() {
+                        let exact = coefficient(&points, a, b, axis);
+                        prop_assert_eq!(*c, exact << guard);
+                        prop_assert!(exact.abs() < 1 << (width + NET_BITS - 1));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The checkerboard of extremes reaches 144 * 2^(W-1), so seven bits more would not do.
+    #[test]
+    fn a_coefficient_needs_the_eighth_bit() {
+        let sign = |k: usize| [1, -1, 1, 1][k % 4] * [1, -1, 1, 1][k / 4];
+        let max = (1 << 31) - 1;
+        let points = std::array::from_fn(|k| [sign(k) * max; 4]);
+        let largest = Net::of(&points, 0).by_u[2].0[2][0];
+        assert_eq!(largest, 144 * max);
+        assert!(largest > 1 << (32 + NET_BITS - 2));
     }
 }

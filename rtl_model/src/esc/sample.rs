@@ -6,9 +6,9 @@
 //! - the patch's boundary, [`Boundary::Symmetric`]: a function of that edge's four control points,
 //!   by Horner's rule from the nearer corner, so at t <= 1/2; at 1/2 ((P0 + P3) + 3 (P1 + P2)) / 8.
 //!   The edge read from its other end gives the same bits, whichever patch reads it;
-//! - inside, and under [`Boundary::Plain`] on the boundary too: `[U] [NBM] [V]`, Horner's rule along
-//!   v for each power of u, then along u. Coarse edges inside need no symmetric form: a sample there
-//!   is a function of the patch and its place, the same for both coarse triangles.
+//! - inside, and under [`Boundary::Plain`] on the boundary too: `[U] [NBM] [V]`, Horner's rule
+//!   along v for each power of u, then along u. Coarse edges inside need no symmetric form: a
+//!   sample there is a function of the patch and its place, the same for both coarse triangles.
 //!
 //! A coordinate is rounded to its format once, at the end. What a row of samples shares, the curve
 //! of constant v, is kept here for speed; the hardware's count is fifteen multiply-adds a
@@ -17,7 +17,7 @@
 use super::pattern::{LINES_MAX, Parameters, Place};
 use super::power::{Cubic, Net, Parameter};
 use super::{Boundary, Corner, Levels, crack, slot};
-use crate::number::{Format, OverflowMode, RoundingMode, divide, shift_right};
+use crate::number::{Divisor, Format, OverflowMode, RoundingMode, shift_right};
 use crate::patch::{EDGES, Point};
 
 /// What of a patch's levels a sample depends on.
@@ -91,20 +91,20 @@ pub(super) struct Datapath {
 }
 
 impl Datapath {
-    /// The output of a register: its coordinates, and how many of them did not fit.
+    /// A register without `bits` bits of its fraction, rounded and fitted; and how many coordinates
+    /// did not fit.
     #[inline(always)]
-    pub(super) fn rounded<R: RoundingMode, O: OverflowMode>(&self, point: Point) -> (Point, u64) {
-        self.fitted::<O>(point.map(|c| shift_right::<R>(c, self.guard)))
-    }
-
-    #[inline(always)]
-    fn fitted<O: OverflowMode>(&self, point: Point) -> (Point, u64) {
-        let mut overflows = 0;
-        let point = point.map(|c| {
-            let (fitted, overflowed) = self.format.fit::<O>(c);
+    pub(super) fn output<R: RoundingMode, O: OverflowMode>(
+        &self,
+        register: Point,
+        bits: u32,
+    ) -> (Point, u64) {
+        let (mut point, mut overflows) = (register, 0);
+        for c in &mut point {
+            let (fitted, overflowed) = self.format.fit::<O>(shift_right::<R>(*c, bits));
+            *c = fitted;
             overflows += u64::from(overflowed);
-            fitted
-        });
+        }
         (point, overflows)
     }
 }
@@ -194,21 +194,24 @@ impl Sampler {
         {
             return self.half::<R, O, NARROW>(parameters, edge, level, line);
         }
-        let bits = self.path.bits;
-        let [fx_u, fx_v] = grid
-            .lines(place)
-            .map(|(level, line)| Parameter { fx: parameters.fx(level, line), bits });
-        let [_, (level, line)] = grid.lines(place);
+        let lines = grid.lines(place);
+        let [u, v] = lines.map(|(level, line)| self.parameter(parameters, level, line));
+        let [_, (level, line)] = lines;
         let row = if level == grid.levels.interior {
             if self.known >> line & 1 == 0 {
                 self.known |= 1 << line;
-                self.rows[usize::from(line)] = self.net.row::<R, NARROW>(fx_v);
+                self.rows[usize::from(line)] = self.net.row::<R, NARROW>(v);
             }
-            self.rows[usize::from(line)]
+            &self.rows[usize::from(line)]
         } else {
-            self.net.row::<R, NARROW>(fx_v)
+            &self.net.row::<R, NARROW>(v) // a vertex of an edge with a level of its own
         };
-        self.rounded::<R, O>(row.at::<R, NARROW>(fx_u))
+        let point = row.at::<R, NARROW>(u);
+        self.output::<R, O>(point, self.path.guard)
+    }
+
+    fn parameter(&self, parameters: &Parameters, level: u8, line: u8) -> Parameter {
+        Parameter { fx: parameters.fx(level, line), bits: self.path.bits }
     }
 
     /// A boundary point, from the corner that is nearer to it.
@@ -223,19 +226,18 @@ impl Sampler {
         if 2 * line == last {
             let [a, b, c, d] = EDGES[edge].map(|k| self.points[k]);
             let sum: Point = std::array::from_fn(|k| (a[k] + d[k]) + 3 * (b[k] + c[k]));
-            let (point, overflows) = self.path.fitted::<O>(sum.map(|c| shift_right::<R>(c, 3)));
-            self.overflows += overflows;
-            return point;
+            return self.output::<R, O>(sum, 3);
         }
         let far = 2 * line > last;
         let line = if far { last - line } else { line };
-        let t = Parameter { fx: parameters.fx(level, line), bits: self.path.bits };
+        let t = self.parameter(parameters, level, line);
         let point = self.halves[edge][usize::from(far)].at::<R, NARROW>(t);
-        self.rounded::<R, O>(point)
+        self.output::<R, O>(point, self.path.guard)
     }
 
-    fn rounded<R: RoundingMode, O: OverflowMode>(&mut self, point: Point) -> Point {
-        let (point, overflows) = self.path.rounded::<R, O>(point);
+    #[inline(always)]
+    fn output<R: RoundingMode, O: OverflowMode>(&mut self, register: Point, bits: u32) -> Point {
+        let (point, overflows) = self.path.output::<R, O>(register, bits);
         self.overflows += overflows;
         point
     }
@@ -259,12 +261,29 @@ impl Sampler {
     }
 }
 
-/// The point `k` of `segments` on the way from one point to another: one rounding, so that the ends
-/// may be swapped.
-pub(super) fn between<R: RoundingMode>(a: Point, b: Point, k: u8, segments: u8) -> Point {
-    let (far, near) = (i64::from(segments - k), i64::from(k));
-    // W + 4 bits over 5
-    std::array::from_fn(|axis| {
-        divide::<R>((a[axis] * far + b[axis] * near).into(), segments.into()) as i64
-    })
+/// Points on a line between two others, at equal steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    from: Point,
+    to: Point,
+    segments: i64,
+    divisor: Divisor,
+}
+
+impl Line {
+    pub(super) fn new(from: Point, to: Point, segments: u8) -> Self {
+        Self { from, to, segments: segments.into(), divisor: Divisor::new(segments.into()) }
+    }
+
+    /// Point `k`, rounded once: the same if the ends are swapped.
+    #[inline]
+    pub(super) fn at<R: RoundingMode>(&self, k: u8) -> Point {
+        let (near, far) = (i64::from(k), self.segments - i64::from(k));
+        let mut point = [0; 4];
+        for (c, (from, to)) in point.iter_mut().zip(self.from.iter().zip(&self.to)) {
+            // W + 4 bits over 5; the quotient is a coordinate, 48 bits at most
+            *c = self.divisor.divide::<R>(from * far + to * near, 1 << 48);
+        }
+        point
+    }
 }

@@ -126,3 +126,86 @@ fn declare(output: Option<Output>, level_max: u8) -> Vec<Part> {
     }
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vertices that each section can list at `level`; every strip of every coarse triangle is in
+    /// one section, in order.
+    fn lists(sections: &Sections, level: u8) -> Vec<u32> {
+        let mut vertices = vec![0; sections.count as usize];
+        let mut strips = Vec::new();
+        let mut last = 0;
+        for part in sections.parts(level) {
+            assert!(part.section >= last, "sections in order");
+            last = part.section;
+            for k in part.strips[0]..=part.strips[1] {
+                vertices[part.section as usize] += strip_vertices(k.into());
+                strips.push((part.triangle, k));
+            }
+        }
+        let all = (0..COARSE_TRIANGLES as u8).flat_map(|t| (1..=level + 1).map(move |k| (t, k)));
+        assert_eq!(strips, all.collect::<Vec<_>>(), "level {level}");
+        vertices
+    }
+
+    #[test]
+    fn sections_own_every_strip_once_and_list_no_more_than_declared() {
+        let mut seen = 0;
+        for level_max in 0..=LEVEL_MAX {
+            let longest = strip_vertices(u32::from(level_max) + 1);
+            for values_per_vertex in [1, 4, 12] {
+                for room in longest..longest + 700 {
+                    let values_max = room * values_per_vertex + (values_per_vertex - 1);
+                    let output = Output { values_max, values_per_vertex, level_max };
+                    assert!(output.fits() && output.vertices() == room);
+                    let sections = Sections::new(Some(output));
+                    for level in 0..=level_max {
+                        let vertices = lists(&sections, level);
+                        assert!(vertices.iter().all(|&count| count <= room), "{output:?} {level}");
+                        seen += 1;
+                    }
+                    let own = lists(&sections, level_max);
+                    assert!(own.iter().all(|&count| count > 0), "an idle one: {output:?}");
+                    let less = Output { values_max: longest * values_per_vertex - 1, ..output };
+                    assert!(!less.fits());
+                }
+            }
+        }
+        println!("compared {seen} layouts");
+        assert_eq!(seen, 136 * 3 * 700);
+    }
+
+    #[test]
+    fn whole_coarse_triangles_where_one_fits() {
+        let count = |values_max, values_per_vertex, level_max| {
+            Sections::new(Some(Output { values_max, values_per_vertex, level_max })).count
+        };
+        // 24 vertices a coarse triangle at level 3
+        assert_eq!(count(1024, 4, 3), 2);
+        assert_eq!(count(1024, 8, 3), 4); // five at a time
+        assert_eq!(count(96, 4, 3), 18);
+        assert_eq!(count(18 * 96, 4, 3), 1);
+        // 23: 3 + 5 + 7, then 9 + 3 + 5, 7 + 9 + 3 and so on
+        let sections =
+            Sections::new(Some(Output { values_max: 95, values_per_vertex: 4, level_max: 3 }));
+        let vertices = lists(&sections, 3);
+        assert_eq!(vertices[..4], [15, 17, 19, 21]);
+        assert_eq!(vertices.iter().sum::<u32>(), 18 * 24);
+        assert_eq!(Sections::new(None).count, 1);
+        assert_eq!(lists(&Sections::new(None), 15), [18 * (256 + 32)]);
+    }
+
+    #[test]
+    #[should_panic(expected = "the longest strip fits")]
+    fn a_strip_that_does_not_fit_has_no_section() {
+        Sections::new(Some(Output { values_max: 35, values_per_vertex: 4, level_max: 3 }));
+    }
+
+    #[test]
+    #[should_panic(expected = "a level above the declared one")]
+    fn a_level_above_the_declared_one_has_no_parts() {
+        Sections::new(Some(Output { values_max: 36, values_per_vertex: 4, level_max: 3 })).parts(4);
+    }
+}

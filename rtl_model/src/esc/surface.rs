@@ -8,7 +8,7 @@
 use super::mesh::{Counting, Masks, Mesh, Tests, Walker};
 use super::pattern::{COARSE_EDGES, CoarseEdge, Parameters, slot, uniform};
 use super::power::NET_BITS;
-use super::sample::{Datapath, Grid, Sampler, between};
+use super::sample::{Datapath, Grid, Line, Sampler};
 use super::section::Sections;
 use super::test::Test;
 use super::{LEVEL_MAX, Levels, Made, Output};
@@ -314,12 +314,12 @@ impl Work<'_, '_> {
                     sampler.fetch::<R, O, NARROW>(grid, parameters, edge.place(end, inner + 1))
                 }),
             };
+            let line = Line::new(from, to, level + 1);
             for k in 1..=level {
                 let slot = slot(k, level, inner);
                 let place = edge.place(slot, inner + 1);
                 let surface = sampler.fetch::<R, O, NARROW>(grid, parameters, place);
-                let mesh = between::<R>(from, to, k, level + 1);
-                *mask |= u16::from(test.inserts(mesh, surface)) << slot;
+                *mask |= u16::from(test.inserts(line.at::<R>(k), surface)) << slot;
             }
         }
         masks

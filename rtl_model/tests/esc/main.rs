@@ -6,7 +6,12 @@
 #[path = "../../../tests/support/random.rs"]
 mod random;
 
+mod counts;
+mod disc;
 mod examples;
 mod mesh;
+mod pattern;
+mod seams;
+mod shader;
 mod support;
 mod vectors;

@@ -50,7 +50,7 @@ pub(super) const RUNS: Piece = Piece {
     block: Block::Surface,
     meaning: "esc.boundary symmetric: the coefficients of four boundary curves from both of their \
               ends, 8 additions of a vec4 each",
-    times: |f| if f.symmetric() { f.get(C::SurfaceInvocations) } else { 0 },
+    times: |f| if f.symmetric() { f.get(C::SurfaceNets) } else { 0 },
     once: |f| Ops::default().adds(HALF_RUNS * 8 * 4, f.w + 4),
 };
 
@@ -147,6 +147,11 @@ impl Frame<'_> {
     fn by_half_runs(&self) -> u64 {
         let boundary = self.get(C::SurfaceBoundary) + self.get(C::SurfaceTestedBoundary);
         if self.symmetric() { boundary } else { 0 }
+    }
+
+    /// Whether control points are wanted in object space beside clip space.
+    pub(super) fn wants_object(&self) -> bool {
+        self.config.unit == Unit::Esc && self.config.esc.tests_in_object_space()
     }
 
     fn tested_in(&self, space: Space) -> u64 {
