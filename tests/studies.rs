@@ -234,7 +234,7 @@ fn esc_counts_triangles_of_the_papers_pattern_and_replaces_its_like() {
     assert_eq!(text.matches("within five points: ").count(), 2 * 4, "{text}");
     assert!(picture.starts_with("<svg") && picture.contains("chord, object units"));
     let rows = rows(&csv);
-    assert_eq!(rows.len(), 1 + 4 * (16 + 4));
+    assert_eq!(rows.len(), 1 + 2 * (12 + 11) + 4 * 4);
     for row in &rows[1..] {
         assert_eq!((row[6], row[8]), ("14976", "233568"), "{row:?}");
         assert!(row[3..].iter().all(|n| n.parse::<u64>().is_ok()), "{row:?}");

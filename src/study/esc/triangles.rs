@@ -9,9 +9,10 @@
 //! In object units the count does not depend on the view, and one frame is as good as any.
 //!
 //! Elephants have a size of their own, and the paper's are not to be had. Elephants s times as
-//! large have at s times the threshold the same triangles: in object units exactly, in pixels where
-//! the camera stays as many of their lengths away. So a second search is for the one size at which
-//! both rows of the table come nearest, each at a common threshold of its own ([`Sized`]).
+//! large have the same triangles at s times the threshold: in object units exactly; in pixels those
+//! that are seen s times as large, in a picture of s times the pixels along each side. So a second
+//! search is for the one size at which both rows of the table come nearest, each at a common
+//! threshold of its own ([`Sized`]).
 
 mod fit;
 mod table;
@@ -92,8 +93,8 @@ impl Test {
     /// inserted to where hardly any is.
     const fn octaves(self) -> [i32; 2] {
         match self.space {
-            Space::Pixels => [-8, 7],
-            Space::Object => [-16, -1],
+            Space::Pixels => [-6, 5],
+            Space::Object => [-13, -3],
         }
     }
 
@@ -133,7 +134,7 @@ pub struct Curve {
 /// Elephants of another size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sized {
-    /// How many times as large they are.
+    /// How many times as large they are, in pixels: are seen.
     pub size: f64,
     /// For each row of [`PAPER`] the common mu, and the triangles of both scenes.
     pub best: [Sample; 2],
