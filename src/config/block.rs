@@ -6,7 +6,7 @@
 //! under way in a lane at once. A block takes at most one token a cycle and gives one a cycle,
 //! however many lanes it has.
 
-use super::{BackfaceMethod, Config, Domain, DomainKind, Esc};
+use super::{BackfaceMethod, Config, Domain, DomainKind};
 use rtl_model::counter::Block;
 use rtl_model::time::{LaneOrder, Shape};
 use serde::{Deserialize, Serialize};
@@ -116,19 +116,11 @@ pub struct DomainCosts {
 /// interval is that of an instruction.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SurfaceCosts {
-    /// Cycles that an instruction of a wave takes, 1..=[`CYCLES_MAX`].
-    pub interval: u32,
-    /// As [`BlockCosts::latency`]: from a wave's last instruction to its output.
-    pub latency: u32,
-    /// As [`BlockCosts::in_flight`]; as many waves as registers hold when absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub in_flight: Option<u32>,
-    /// Processors, 1..=[`LANES_MAX`].
-    pub lanes: u32,
-    /// As [`BlockCosts::lane_order`].
-    pub lane_order: LaneOrder,
-    /// As [`BlockCosts::fifo`].
-    pub fifo: u32,
+    /// Those that all blocks have: the interval is that of an instruction of a wave, the latency
+    /// that from a wave's last instruction to its output; as many waves are under way as registers
+    /// hold.
+    #[serde(flatten)]
+    pub costs: BlockCosts,
     /// Instructions of a product `[N][B][M]^T`, 0..=[`CYCLES_MAX`].
     pub net: u32,
     /// Instructions of a test, without the point that it takes.
@@ -235,12 +227,7 @@ impl Default for Blocks {
             },
             group: costs(1, 1, 4),
             surface: SurfaceCosts {
-                interval: 4,
-                latency: 200,
-                in_flight: None,
-                lanes,
-                lane_order,
-                fifo: 2,
+                costs: costs(4, 200, 2),
                 net: 64,
                 test: 24,
                 point: 16,
@@ -330,20 +317,6 @@ impl DomainCosts {
     }
 }
 
-impl SurfaceCosts {
-    /// The costs of a wave, but for its interval, which is what its patches take.
-    fn of(&self, esc: &Esc) -> BlockCosts {
-        BlockCosts {
-            interval: self.interval,
-            latency: self.latency,
-            in_flight: self.in_flight.or(Some(esc.waves_in_flight())),
-            lanes: self.lanes,
-            lane_order: self.lane_order,
-            fifo: self.fifo,
-        }
-    }
-}
-
 impl Config {
     /// What `block` costs, with what is absent derived; of [`Block::Backface`], what a patch costs
     /// that the configured method tests. `None` for what is no block of the unit: the trace, the
@@ -369,7 +342,7 @@ impl Config {
             Block::Stitch => blocks.stitch.clone(),
             Block::Domain => blocks.domain.of(&self.domain),
             Block::Group => blocks.group.clone(),
-            Block::Surface => blocks.surface.of(&self.esc),
+            Block::Surface => blocks.surface.costs.holding(self.esc.waves_in_flight()),
             Block::Emit => blocks.emit.clone(),
             Block::VertexShader => blocks.vertex_shader.clone(),
         })

@@ -127,7 +127,8 @@ impl Config {
         let esc = &self.esc;
         let most = u32::from(rtl_model::esc::LEVEL_MAX);
         within("esc.level_max", esc.level_max, 0, most)?;
-        within("esc.fixed_level", esc.fixed_level, 0, esc.level_max)?;
+        let fixed_most = if level == LevelPolicy::Fixed { esc.level_max } else { most };
+        within("esc.fixed_level", esc.fixed_level, 0, fixed_most)?;
         number("esc.full_distance", Some(esc.full_distance), |w| w > 0.0 && w.is_finite())?;
         number("esc.full_pixels", Some(esc.full_pixels), |p| p > 0.0 && p <= 65535.0)?;
         number("esc.mu", Some(esc.mu), |mu| (0.0..=65535.0).contains(&mu))?;
@@ -298,25 +299,6 @@ mod tests {
         refused("domain.bytes_in", |c| c.domain.bytes_in = 65537);
         refused("domain.bytes_out", |c| c.domain.bytes_out = 65537);
         refused("block.domain.interval", |c| c.block.domain.interval = Some(0));
-        refused("esc.level_max", |c| c.esc.level_max = 16);
-        refused("esc.fixed_level", |c| (c.esc.level_max, c.esc.fixed_level) = (2, 3));
-        refused("esc.full_distance", |c| c.esc.full_distance = f64::INFINITY);
-        refused("esc.full_pixels", |c| c.esc.full_pixels = 0.0);
-        refused("esc.mu", |c| c.esc.mu = -0.5);
-        refused("esc.mu", |c| c.esc.mu = f64::NAN);
-        refused("esc.scope", |c| c.esc.scope = LevelScope::Object);
-        refused("esc.guard", |c| c.esc.guard = 21);
-        refused("esc.guard", |c| (c.position.width, c.esc.guard) = (48, 8));
-        refused("esc.parameter_bits", |c| c.esc.parameter_bits = 15);
-        refused("esc.output_values", |c| c.esc.output_values = Some(131));
-        refused("esc.width", |c| c.esc.width = 1025);
-        refused("esc.registers", |c| c.esc.registers = 65537);
-        refused("esc.register_file", |c| c.esc.register_file = 0);
-        refused("esc.bytes_out", |c| c.esc.bytes_out = 3);
-        refused("block.surface.net", |c| c.block.surface.net = 1_000_001);
-        refused("block.surface.test", |c| c.block.surface.test = 1_000_001);
-        refused("block.surface.point", |c| c.block.surface.point = 1_000_001);
-        refused("block.surface.slot", |c| c.block.surface.slot = 1_000_001);
         refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
         refused("link.header", |c| c.link.payload = 0);
         refused("link.bandwidth_mb_s", |c| c.link.bandwidth_mb_s = 0);
@@ -359,6 +341,33 @@ mod tests {
             c.level.min_level = Some(4.0);
             c.level.max_level = Some(3.0);
         });
+    }
+
+    #[test]
+    fn what_no_surface_shader_has_is_refused_by_its_key() {
+        refused("esc.level_max", |c| c.esc.level_max = 16);
+        refused("esc.fixed_level", |c| (c.esc.level, c.esc.level_max) = (LevelPolicy::Fixed, 2));
+        refused("esc.full_distance", |c| c.esc.full_distance = f64::INFINITY);
+        refused("esc.full_pixels", |c| c.esc.full_pixels = 0.0);
+        refused("esc.mu", |c| c.esc.mu = -0.5);
+        refused("esc.mu", |c| c.esc.mu = f64::NAN);
+        refused("esc.scope", |c| c.esc.scope = LevelScope::Object);
+        refused("esc.guard", |c| c.esc.guard = 21);
+        refused("esc.guard", |c| (c.position.width, c.esc.guard) = (48, 8));
+        refused("esc.parameter_bits", |c| c.esc.parameter_bits = 15);
+        refused("esc.output_values", |c| c.esc.output_values = Some(131));
+        refused("esc.width", |c| c.esc.width = 1025);
+        refused("esc.registers", |c| c.esc.registers = 65537);
+        refused("esc.register_file", |c| c.esc.register_file = 0);
+        refused("esc.bytes_out", |c| c.esc.bytes_out = 3);
+        refused("block.surface.net", |c| c.block.surface.net = 1_000_001);
+        refused("block.surface.test", |c| c.block.surface.test = 1_000_001);
+        refused("block.surface.point", |c| c.block.surface.point = 1_000_001);
+        refused("block.surface.slot", |c| c.block.surface.slot = 1_000_001);
+        // Under other policies its default may exceed a lower bound.
+        let mut config = Config::default();
+        config.esc.level_max = 2;
+        assert_eq!(config.problem(), Ok(()));
     }
 
     #[test]

@@ -128,7 +128,7 @@ fn shader_array(blocks: &mut Blocks, simds: u32) {
     // a cycle as the lanes do.
     blocks.domain.lanes = lanes / WORDS;
     // The surface shader counts its instructions; a wave of 64 takes 4 cycles for one on 16 lanes.
-    (blocks.surface.lanes, blocks.surface.point) = (simds, WORDS);
+    (blocks.surface.costs.lanes, blocks.surface.point) = (simds, WORDS);
 }
 
 /// Instruction words of a shader program.

@@ -4,10 +4,10 @@
 //! commands, `frame` derives what is constant over a frame, `draw` and `fetch` say where a draw's
 //! patches get their points, `batch` collects patches and spreads them over the threads, `pipeline`
 //! takes one patch through the blocks: through lists of parameters (`surface`), of which `hybrid`,
-//! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11` or `esc`. `union` holds the
-//! lists that patches of a primitive share, `edges` what it keeps of their edges; `wave` gathers
-//! patches that a surface shader makes side by side; `chain` and `clock` put it all on the clock; `tokens` and `arithmetic` say from a frame's counters what
-//! flowed and what it took.
+//! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11` or `esc`. `union`
+//! holds the lists that patches of a primitive share, `edges` what it keeps of their edges; `wave`
+//! gathers patches that a surface shader makes side by side; `chain` and `clock` put it all on the
+//! clock; `tokens` and `arithmetic` say from a frame's counters what flowed and what it took.
 
 pub mod arithmetic;
 mod attributes;

@@ -69,7 +69,7 @@ impl<T: Flow> Former<T> {
     pub(super) fn new(config: &Config) -> Self {
         let costs = &config.block.surface;
         let program = Program {
-            interval: costs.interval.into(),
+            interval: costs.costs.interval.into(),
             net: costs.net.into(),
             test: costs.test.into(),
             point: costs.point.into(),
@@ -166,7 +166,7 @@ mod tests {
         let mut config = Config::default();
         config.esc.width = width;
         let surface = &mut config.block.surface;
-        (surface.interval, surface.net, surface.test, surface.point, surface.slot) =
+        (surface.costs.interval, surface.net, surface.test, surface.point, surface.slot) =
             (2, 1, 1, 1, 1);
         Former::new(&config)
     }

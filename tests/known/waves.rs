@@ -59,7 +59,7 @@ fn run(list: &[Vec<[f32; 3]>], first: usize, draws: &[usize], config: &Config) -
 fn alone(list: &[Vec<[f32; 3]>], k: usize, config: &Config) -> Option<Patch> {
     let mut config = config.clone();
     config.esc.width = 1;
-    config.block.surface.interval = 1;
+    config.block.surface.costs.interval = 1;
     let mut patch = Patch { sections: 0, most: [0; PARTS], sum: [0; PARTS] };
     for part in 0..PARTS {
         let mut only = [0; PARTS];
@@ -154,7 +154,7 @@ fn waves_take_what_their_patches_take_alone() {
             let each = [(); PARTS].map(|()| random.integer(1, 90));
             config.esc.width = width;
             let interval = random.integer(1, 5);
-            config.block.surface.interval = interval;
+            config.block.surface.costs.interval = interval;
             cost(&mut config.block.surface, each);
             let report = run(&list, 0, &draws, &config);
             let each = each.map(|cost| u64::from(cost * interval));

@@ -221,7 +221,7 @@ impl EscWork {
     /// As given, else one and as many as the machine has.
     fn processors(&self, base: &Config) -> Vec<u32> {
         if self.processors.is_empty() {
-            let machine = base.block.surface.lanes;
+            let machine = base.block.surface.costs.lanes;
             return if machine == 1 { vec![1] } else { vec![1, machine] };
         }
         self.processors.clone()

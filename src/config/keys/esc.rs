@@ -24,7 +24,7 @@ pub(super) const KEYS: &[Key] = &[
         "greatest level, candidates on an edge of a coarse triangle; the paper's is 3",
         "0..=15",
     ),
-    key("esc.fixed_level", "the level of fixed", "0..=15, at most esc.level_max"),
+    key("esc.fixed_level", "the level of fixed", "0..=15; under fixed at most esc.level_max"),
     key(
         "esc.full_distance",
         "w up to which distance gives the greatest level; beyond it L + 1 falls as 1 / w",
@@ -67,7 +67,7 @@ pub(super) const KEYS: &[Key] = &[
     ),
     key(
         "esc.guard",
-        "fraction bits of the coefficients [N][B][M]^T and of Horner's registers below a position's",
+        "fraction bits that [N][B][M]^T and Horner's registers have below a position's",
         "0..=20, with position.width + 8 + guard <= 63",
     ),
     key("esc.parameter_bits", "fraction bits of a parameter", "16..=46"),

@@ -1,11 +1,19 @@
-//! Crowd: how many of a model and how far apart in, where each of them stands and where the eye is
-//! from frame to frame out: a walk from the front row towards the middle.
+//! Crowd: a model, how many of it and how far apart in, a trace out: where each of them stands, and
+//! a walk from the front row towards the middle.
+//!
+//! The model's points are resident: they cross the link once, and every frame sends the matrices of
+//! its instances.
 //!
 //! Models stand on a jittered square lattice, each turned its own way. Concheiro et al. 2014,
 //! section 4: "a walk-through animation with the same movement of the camera".
 
+use super::super::command::{Command, Draw, Header, Points, Primitive, Tessellation};
+use super::super::points::PointSource;
+use super::super::write::Writer;
 use super::camera::Camera;
 use super::grid::random;
+use std::io::{self, Write};
+use std::sync::Arc;
 
 /// The most that a model is off its lattice point along each axis, in parts of the spacing.
 const JITTER: f64 = 0.15;
@@ -21,7 +29,54 @@ pub(super) struct Crowd {
     pub(super) y_up: bool,
 }
 
+/// What stands there.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    /// Several of it, in a title.
+    pub(super) plural: &'static str,
+    /// Where it is from.
+    pub(super) source: String,
+    /// Under which licence.
+    pub(super) licence: String,
+    /// 16 points a patch.
+    pub(super) points: Vec<[f32; 3]>,
+    /// Whether its patches face inwards.
+    pub(super) reversed: bool,
+}
+
 impl Crowd {
+    /// Writes the trace of a walk.
+    ///
+    /// # Errors
+    /// Those of the output.
+    pub(super) fn write(
+        &self,
+        model: Model,
+        tessellation: Tessellation,
+        frames: u32,
+        out: &mut impl Write,
+    ) -> io::Result<()> {
+        let Model { plural, source, licence, points, reversed } = model;
+        let count = points.len() as u64 / 16;
+        let draw = Command::Draw(Draw {
+            models: (0..self.count).map(|i| self.model(i)).collect(),
+            models_sent: true,
+            reversed,
+            ..Draw::new(Primitive::Patches { count }, 0)
+        });
+        let mut writer = Writer::new(out);
+        let title = format!("a walk among {} {plural}", self.count);
+        writer.write(&Command::Header(Header { title, source, licence }))?;
+        let source = Arc::new(PointSource::Xyz(points));
+        writer.write(&Command::Points(Points { id: 0, source, resident: true }))?;
+        writer.write(&Command::Tessellation(tessellation))?;
+        for frame in 0..frames {
+            writer.write(&Command::Frame(self.camera(frame, frames).frame()))?;
+            writer.write(&draw)?;
+        }
+        writer.write(&Command::End)
+    }
+
     /// Models along a side of the lattice: the least square that holds them.
     fn side(&self) -> u32 {
         let root = self.count.isqrt();
@@ -29,7 +84,7 @@ impl Crowd {
     }
 
     /// Where model `i` stands and how it is turned, column-major.
-    pub(super) fn model(&self, i: u32) -> [f32; 16] {
+    fn model(&self, i: u32) -> [f32; 16] {
         let (row, column) = (i / self.side(), i % self.side());
         let jitter = |axis| JITTER * self.spacing * (2.0 * random(i, axis) - 1.0);
         let x = f64::from(column) * self.spacing + jitter(0);
@@ -48,7 +103,7 @@ impl Crowd {
     }
 
     /// The eye of a frame of so many.
-    pub(super) fn camera(&self, frame: u32, frames: u32) -> Camera {
+    fn camera(&self, frame: u32, frames: u32) -> Camera {
         let size = f64::from(self.side() - 1) * self.spacing;
         // Of models three apart; larger ones are seen from as much farther.
         let unit = self.spacing / 3.0;

@@ -65,8 +65,8 @@ pub(super) const POINT: Piece = Piece {
 
 pub(super) const BOUNDARY: Piece = Piece {
     block: Block::Surface,
-    meaning: "esc.boundary symmetric, a point of the boundary: 3 steps of Horner of a vec4 from the \
-              nearer corner, and its rounding",
+    meaning: "esc.boundary symmetric, a point of the boundary: 3 steps of Horner of a vec4 from \
+              the nearer corner, and its rounding",
     times: |f| f.by_half_runs(),
     once: |f| horner(f, 3),
 };

@@ -60,8 +60,8 @@ pub(super) fn equal_cores(config: &mut Config, processors: u32) {
     let waves = config.esc.waves_in_flight();
     let surface = &mut config.block.surface;
     (surface.net, surface.point, surface.slot, surface.test) = (NET, POINT, SLOT, TEST);
-    (surface.interval, surface.latency) = (instruction, LATENCY);
-    (surface.lanes, surface.in_flight) = (processors, Some(waves));
+    (surface.costs.interval, surface.costs.latency) = (instruction, LATENCY);
+    (surface.costs.lanes, surface.costs.in_flight) = (processors, Some(waves));
     let interval = instruction * domain(config.domain.shader);
     let shader = &mut config.block.domain;
     (shader.interval, shader.latency) = (Some(interval), interval + LATENCY);
