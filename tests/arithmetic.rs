@@ -3,6 +3,9 @@
 
 #![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
 
+#[path = "arithmetic/esc.rs"]
+mod esc;
+
 use rtl_model::counter::Block;
 use rtl_model::counter::standard::{Ops, Work};
 use std::io::BufReader;

@@ -139,6 +139,13 @@ impl Frame<'_> {
         if by_edge && esc.level == policy { self.get(C::LevelPatches) } else { 0 }
     }
 
+    /// Whether levels come neither from a criterion nor from what one measures.
+    pub(super) fn without_criterion(&self) -> bool {
+        let esc = &self.config.esc;
+        let level = matches!(esc.level, LevelPolicy::Fixed | LevelPolicy::Distance);
+        self.config.unit == Unit::Esc && (level || esc.scope == LevelScope::Object)
+    }
+
     fn symmetric(&self) -> bool {
         self.config.esc.boundary == Boundary::Symmetric
     }

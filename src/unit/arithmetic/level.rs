@@ -22,9 +22,11 @@ const GUARD: u64 = 12;
 pub(super) const GRANT: Piece = Piece {
     block: Block::Level,
     meaning: "a patch's six levels against min and max (12 comparisons of 64 bits), and the \
-              interior's against its edges (4 of 24); not where eight curves are divided",
+              interior's against its edges (4 of 24); not where eight curves are divided, nor \
+              in unit esc by distance or at a fixed level",
     times: |f| {
-        if f.adaptive() { 0 } else { f.get(C::LevelPatches) - f.eight_curves() }
+        let no = f.adaptive() || f.without_criterion();
+        if no { 0 } else { f.get(C::LevelPatches) - f.eight_curves() }
     },
     once: |_| Ops::default().compares(12, ASKED).compares(4, LEVEL),
 };
