@@ -36,6 +36,7 @@ mod crack;
 mod list;
 mod made;
 mod mesh;
+mod path;
 mod pattern;
 mod power;
 pub mod resolution;

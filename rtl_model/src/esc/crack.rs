@@ -8,8 +8,8 @@
 //! of their edge, it is counted in at least one of them; the reverse does not hold, for a neighbour
 //! may happen to be turned as the patch is.
 
+use super::path::Datapath;
 use super::power::{Net, Parameter};
-use super::sample::Datapath;
 use crate::number::{OverflowMode, RoundingMode};
 use crate::patch::Point;
 

@@ -14,10 +14,11 @@
 //! of constant v, is kept here for speed; the hardware's count is fifteen multiply-adds a
 //! coordinate.
 
+use super::path::Datapath;
 use super::pattern::{LINES_MAX, Parameters, Place};
 use super::power::{Cubic, Net, Parameter};
 use super::{Boundary, Corner, Levels, crack, slot};
-use crate::number::{Divisor, Format, OverflowMode, RoundingMode, shift_right};
+use crate::number::{Divisor, OverflowMode, RoundingMode};
 use crate::patch::{EDGES, Point};
 
 /// What of a patch's levels a sample depends on.
@@ -77,35 +78,6 @@ impl Grid {
             _ => return None,
         };
         Some((edge, self.levels.edges[edge], self.along[edge][usize::from(carrier)]))
-    }
-}
-
-/// How samples are computed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Datapath {
-    pub(super) format: Format,
-    pub(super) guard: u32,
-    /// Fraction bits of a parameter.
-    pub(super) bits: u32,
-    pub(super) boundary: Boundary,
-}
-
-impl Datapath {
-    /// A register without `bits` bits of its fraction, rounded and fitted; and how many coordinates
-    /// did not fit.
-    #[inline(always)]
-    pub(super) fn output<R: RoundingMode, O: OverflowMode>(
-        &self,
-        register: Point,
-        bits: u32,
-    ) -> (Point, u64) {
-        let (mut point, mut overflows) = (register, 0);
-        for c in &mut point {
-            let (fitted, overflowed) = self.format.fit::<O>(shift_right::<R>(*c, bits));
-            *c = fitted;
-            overflows += u64::from(overflowed);
-        }
-        (point, overflows)
     }
 }
 

@@ -6,9 +6,10 @@
 //! twice gives the same bits; what one patch gave does not matter to the next.
 
 use super::mesh::{Counting, Masks, Mesh, Tests, Walker};
+use super::path::Datapath;
 use super::pattern::{COARSE_EDGES, CoarseEdge, Parameters, slot, uniform};
 use super::power::NET_BITS;
-use super::sample::{Datapath, Grid, Line, Sampler};
+use super::sample::{Grid, Line, Sampler};
 use super::section::Sections;
 use super::test::Test;
 use super::{LEVEL_MAX, Levels, Made, Output};
