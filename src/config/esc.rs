@@ -1,14 +1,11 @@
 //! The surface shader of unit `esc`, as keys `esc.*`. Plain data.
 
 use super::Config;
-use rtl_model::esc::{Boundary, ControlMesh, Output, Reuse};
+use rtl_model::esc::{Boundary, ControlMesh, NET_BITS, Output, Reuse};
 use serde::{Deserialize, Serialize};
 
 /// Words of `[N][B][M]^T`: 16 coefficients of four components.
 pub const NET_WORDS: u32 = 64;
-/// Bits that a coefficient has beyond a position: each of its two products grows by up to 12 = 6 +
-/// 6 (the row 3 -6 3 of `[N]`), 4 bits.
-pub const NET_GROWTH: u32 = 8;
 
 /// What a patch's level of resolution depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -156,7 +153,7 @@ impl Config {
     /// Bits of a coefficient of the surface.
     #[must_use]
     pub fn net_bits(&self) -> u32 {
-        self.position.width + NET_GROWTH + self.esc.guard
+        self.position.width + NET_BITS + self.esc.guard
     }
 }
 

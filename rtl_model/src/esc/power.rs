@@ -15,7 +15,7 @@ use crate::number::{Rounding, RoundingMode, shift_right};
 use crate::patch::Point;
 
 /// Bits that the power basis of a surface needs above a coordinate's.
-pub(super) const NET_BITS: u32 = 8;
+pub const NET_BITS: u32 = 8;
 
 /// A parameter: U1.F and F.
 #[derive(Clone, Copy, Debug)]
