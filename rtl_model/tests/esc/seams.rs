@@ -5,7 +5,7 @@ use crate::random::Random;
 use crate::shader::{Result, UNIT, any_settings, exact, run, subject, view};
 use rtl_model::esc::{Boundary, ControlMesh, LEVEL_MAX, Levels, Surface, Threshold};
 use rtl_model::patch::{EDGES, Patch, Point};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 type Subject = (Patch, [Point; 16]);
 
@@ -93,7 +93,26 @@ fn neighbours_make_the_same_vertices_on_their_edge() {
     assert!(kinds.len() == 6 && kinds.values().all(|&pairs| pairs > 500));
 }
 
-/// The eight symmetries of the square: the turned patch has the turned boundary.
+/// One of the eight symmetries of the square: the turned patch and net, and for each of its edges
+/// the side of the patch that it is.
+fn turned(subject: &Subject, turn: usize) -> (Subject, [Side; 4]) {
+    let [swapped, reversed_u, reversed_v] = [4, 1, 2].map(|bit| turn & bit != 0);
+    let from = |k: usize| {
+        let flip = |line: usize, reversed| if reversed { 3 - line } else { line };
+        let (column, row) = (flip(k % 4, reversed_u), flip(k / 4, reversed_v));
+        if swapped { 4 * column + row } else { 4 * row + column }
+    };
+    let points = std::array::from_fn(|k| subject.0.points[from(k)]);
+    let object = std::array::from_fn(|k| subject.1[from(k)]);
+    let sides = EDGES.map(|edge| {
+        let sources = edge.map(from);
+        let sides = (0..4).flat_map(|edge| [false, true].map(|reversed| Side { edge, reversed }));
+        sides.into_iter().find(|side| side.indices() == sources).unwrap()
+    });
+    ((Patch { points, ..subject.0 }, object), sides)
+}
+
+/// The turned patch has the turned boundary.
 #[test]
 fn a_turned_patch_has_the_same_boundary() {
     let mut random = Random::new(0x7042);
@@ -107,24 +126,9 @@ fn a_turned_patch_has_the_same_boundary() {
         let edges = [0; 4].map(|_: u8| random.integer(0, interior.into()) as u8);
         let own = run(&mut shader, &subject, &view, Levels { edges, interior });
         for turn in 0..8 {
-            let [swapped, reversed_u, reversed_v] = [4, 1, 2].map(|bit| turn & bit != 0);
-            let from = |k: usize| {
-                let flip = |line: usize, reversed| if reversed { 3 - line } else { line };
-                let (column, row) = (flip(k % 4, reversed_u), flip(k / 4, reversed_v));
-                if swapped { 4 * column + row } else { 4 * row + column }
-            };
-            let points = std::array::from_fn(|k| subject.0.points[from(k)]);
-            let object = std::array::from_fn(|k| subject.1[from(k)]);
-            // Each edge of the turned patch is one of the patch, by its control points' numbers.
-            let sides = EDGES.map(|edge| {
-                let sources = edge.map(from);
-                let sides =
-                    (0..4).flat_map(|edge| [false, true].map(|reversed| Side { edge, reversed }));
-                sides.into_iter().find(|side| side.indices() == sources).unwrap()
-            });
-            let turned = Levels { edges: sides.map(|side| edges[side.edge]), interior };
-            let patch = Patch { points, ..subject.0 };
-            let result = run(&mut shader, &(patch, object), &view, turned);
+            let (subject, sides) = turned(&subject, turn);
+            let levels = Levels { edges: sides.map(|side| edges[side.edge]), interior };
+            let result = run(&mut shader, &subject, &view, levels);
             for (edge, side) in sides.into_iter().enumerate() {
                 let got = Side { edge, reversed: false }.vertices(&result);
                 assert_eq!(got, side.vertices(&own), "turn {turn}, edge {edge}, {settings:?}");
@@ -134,6 +138,46 @@ fn a_turned_patch_has_the_same_boundary() {
     }
     println!("compared {compared} vertices");
     assert!(compared > 100_000);
+}
+
+/// By definition: vertices at which the patch, turned in some way, makes another point.
+#[test]
+fn cracks_are_what_some_turned_patch_makes_otherwise() {
+    let mut random = Random::new(0x8c4a);
+    let (mut patches, mut vertices, mut cracks) = (0, 0, 0);
+    for _ in 0..400 {
+        let mut settings = any_settings(&mut random);
+        (settings.boundary, settings.threshold) = (Boundary::Plain, Threshold::Uniform);
+        // Few roundings differ where there are guard bits.
+        settings.guard = settings.guard.min(random.integer(0, 6));
+        let view = view(&mut random, settings.position);
+        let mut shader = Surface::new(settings);
+        let subject = subject(&mut random, &settings);
+        let interior = random.integer(0, 7) as u8;
+        let edges = [0; 4].map(|_: u8| random.integer(0, interior.into()) as u8);
+        let own = run(&mut shader, &subject, &view, Levels { edges, interior });
+        let mut differing = BTreeSet::new();
+        for turn in 0..8 {
+            let (subject, sides) = turned(&subject, turn);
+            let levels = Levels { edges: sides.map(|side| edges[side.edge]), interior };
+            let result = run(&mut shader, &subject, &view, levels);
+            for (edge, side) in sides.into_iter().enumerate() {
+                let mine = side.vertices(&own);
+                vertices += mine.len();
+                for (t, point) in (Side { edge, reversed: false }).vertices(&result) {
+                    if mine[&t] != point {
+                        let t = if side.reversed { UNIT - t } else { t };
+                        differing.insert((side.edge, t));
+                    }
+                }
+            }
+        }
+        assert_eq!(own.made.cracks, differing.len() as u64, "{edges:?} under {settings:?}");
+        patches += 1;
+        cracks += own.made.cracks;
+    }
+    println!("compared {vertices} vertices of {patches} patches, {cracks} cracks");
+    assert!(cracks > 5_000 && 16 * cracks < vertices as u64);
 }
 
 /// Under the plain policy boundaries do differ, and where they do one of the two patches says so.
