@@ -298,7 +298,7 @@ counters! {
         SurfaceInvocations "invocations" Count "surface-shader invocations: one a patch, or one a section of it (`esc.output_values`)", ">= level patches";
         SurfaceControlPoints "control_points" Count "control points read, 16 an invocation", "= 16 x invocations";
         SurfaceBytesIn "bytes.in" Bytes "what they read: 16 vec4 an invocation, as many again of three components where the test is in object units, and attributes of four corners", ">= 256 x invocations";
-        SurfaceNets "nets" Count "products [N][B][M]^T of four components: none where a section has no strip at its patch's level (`esc.output_values`)", "<= invocations; = invocations where a patch is one";
+        SurfaceNets "nets" Count "products `[N][B][M]^T` of four components: none where a section has no strip at its patch's level (`esc.output_values`)", "<= invocations; = invocations where a patch is one";
         SurfaceObjectNets "nets.object" Count "the same of control points in object space, for tests in object units", "= nets or 0";
         SurfaceTests "tests" Count "distance tests of candidates", "0 where `esc.mu` is 0";
         SurfaceInserted "tests.inserted" Count "of those, where the vertex was inserted", "<= tests";

@@ -83,7 +83,7 @@ fn a_surface_shader_that_cannot_be_is_refused_by_its_key() {
         (&["esc.levle=fixed"], "did you mean `esc.level`?"),
         (&["esc.level=distnace"], "esc.level: found \"distnace\", expected criterion, fixed"),
         (&["esc.level_max=16"], "esc.level_max: found 16, expected 0..=15"),
-        (&["esc.level_max=2"], "esc.fixed_level: found 3"),
+        (&["esc.level=fixed", "esc.level_max=2"], "esc.fixed_level: found 3"),
         (&["esc.scope=object"], "esc.scope: found object with esc.level criterion"),
         (&["esc.full_distance=0"], "esc.full_distance: found 0"),
         (&["esc.full_pixels=70000"], "esc.full_pixels: found 70000"),

@@ -1,6 +1,6 @@
 //! Teacups: cups on a plane in, a walk among them out, one frame after another.
 //!
-//! Cups stand about three units apart ([`super::crowd`]); the eye walks from the front row towards
+//! Cups stand about three units apart; the eye walks from the front row towards
 //! the middle and sways a little, so that cups are seen large and small, and some are passed.
 
 use super::super::command::Tessellation;
