@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything that can be checked: format, lints, tests, documentation, a run of the command, benches.
 #
-#   tests/all.sh                 about ten minutes on two cores
+#   tests/all.sh                 about a quarter of an hour on two cores, most of it building
 #   tests/all.sh --long          the long campaigns too (TESSIM_LONG=1: tests scale their case counts)
 #   tests/all.sh --fuzz SECONDS  then fuzzes each target for that long
 #
