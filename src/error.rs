@@ -44,6 +44,9 @@ pub enum Error {
         /// The system's reason.
         source: std::io::Error,
     },
+    /// A GPU is missing, or failed.
+    #[error("{0}")]
+    Device(String),
 }
 
 /// Results of the library.
@@ -56,7 +59,7 @@ impl Error {
         match self {
             Self::Check(_) => 1,
             Self::Input { .. } | Self::Usage(_) => 2,
-            Self::System { .. } => 3,
+            Self::System { .. } | Self::Device(_) => 3,
         }
     }
 

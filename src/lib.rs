@@ -32,6 +32,8 @@ pub mod attribute;
 pub mod config;
 pub mod error;
 pub mod golden;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod link;
 pub mod output;
 pub mod report;

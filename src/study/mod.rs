@@ -6,6 +6,8 @@
 
 pub mod backface;
 pub mod bandwidth;
+#[cfg(feature = "gpu")]
+pub mod check;
 pub mod compare;
 pub mod esc;
 mod markdown;

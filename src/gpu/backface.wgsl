@@ -1,0 +1,1 @@
+// backface: to come.

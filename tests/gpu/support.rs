@@ -1,0 +1,70 @@
+//! A device for tests, and the end of a comparison.
+
+use rtl_model::number::Format;
+use rtl_model::patch::{Depth, View};
+use std::path::Path;
+use std::sync::OnceLock;
+use tessim::config::Config;
+use tessim::gpu::{Backend, Device, Settings, Sources};
+use tessim::study::check::Ledger;
+
+/// The device of all tests; `None`, with a line that says so, where there is none.
+pub(crate) fn device() -> Option<&'static Device> {
+    static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
+    let device = DEVICE.get_or_init(|| match Device::open(Backend::Auto, sources()) {
+        Ok(device) => Some(device),
+        Err(reason) => {
+            println!("SKIPPED the second implementation: {reason}");
+            None
+        }
+    });
+    device.as_ref()
+}
+
+fn sources() -> Sources {
+    match std::env::var_os("TESSIM_KERNELS") {
+        Some(folder) => Sources::from_folder(Path::new(&folder)).expect("a folder of kernels"),
+        None => Sources::default(),
+    }
+}
+
+/// How many times as many samples as usual.
+pub(crate) fn effort() -> usize {
+    if std::env::var_os("TESSIM_LONG").is_some() { 10 } else { 1 }
+}
+
+/// Settings of a default configuration with positions of this width.
+pub(crate) fn settings(width: u32) -> Settings {
+    let mut config = Config::default();
+    config.position.width = width;
+    let view = view(width);
+    Settings::new(&config, &view, view.position)
+}
+
+/// A view of positions of this width.
+pub(crate) fn view(width: u32) -> View {
+    View {
+        position: Format::of_range(width, 0),
+        viewport: [1280, 1024],
+        depth: Depth::ZeroToOne,
+        near: 1,
+        facing: 1,
+    }
+}
+
+/// Fails where anything differs, or where fewer words than this were compared in a row.
+pub(crate) fn settle(ledger: &Ledger, floor: u64) {
+    assert!(!ledger.rows().is_empty(), "nothing was compared");
+    for row in ledger.rows() {
+        println!("{} {}: {} values, {} differ", row.block, row.what, row.values, row.different);
+        for first in &row.first {
+            println!("  {}: cpu {:08x?} gpu {:08x?}", first.place, first.cpu, first.gpu);
+            println!("    of {}", first.inputs);
+        }
+    }
+    let [_, different] = ledger.totals();
+    assert_eq!(different, 0, "words differ");
+    for row in ledger.rows() {
+        assert!(row.values >= floor, "{} {}: only {}", row.block, row.what, row.values);
+    }
+}
