@@ -3,7 +3,9 @@
 use crate::attribute::Attribute;
 use crate::error::Result;
 use rtl_model::emit::Screen;
-use rtl_model::patch::{Triangle, Vertex, View};
+use rtl_model::level::State;
+use rtl_model::number::Format;
+use rtl_model::patch::{Patch, Point, Triangle, Vertex, View};
 
 /// A frame whose meshes follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +16,13 @@ pub struct FrameInfo {
     pub view: View,
     /// What the parameters of its vertices stand for.
     pub grid: Grid,
+    /// The camera, with the format of clip space: that of `view`, but in a unit that works in
+    /// object space.
+    pub eye: View,
+    /// The format of object space.
+    pub object: Format,
+    /// The near threshold as a shader or the driver has it.
+    pub near: f32,
 }
 
 /// What parameters in U1.16 stand for.
@@ -24,6 +33,28 @@ pub enum Grid {
     /// Fractions of at most 48 parts: each the one that is nearest (unit `esc`, whose grid is
     /// thirds).
     Thirds,
+}
+
+/// A patch after the port, as a unit's blocks are given it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrived {
+    /// What the unit works on.
+    pub patch: Patch,
+    /// What levels are chosen from, where that is another space's.
+    pub seen: Option<Patch>,
+    /// Its control points in clip space as the shaders have them; all 0 in units that do not go on
+    /// in f32.
+    pub shaded: [[f32; 4]; 16],
+    /// Its control points in object space, where the unit has them beside those in clip space.
+    pub object: Option<[Point; 16]>,
+    /// The level of resolution that the driver chose for all of its draw (unit `esc`).
+    pub object_level: Option<u8>,
+    /// The tessellation state of its draw.
+    pub state: State,
+    /// Components of the attributes of a vertex.
+    pub components: u32,
+    /// Bytes that a hull shader hands on for it.
+    pub hull_bytes: u32,
 }
 
 /// What a unit made of one patch.
@@ -81,6 +112,20 @@ pub trait Sink {
     /// # Errors
     /// The sink's own.
     fn patch(&mut self, mesh: &PatchMesh<'_>) -> Result<()>;
+
+    /// Whether it wants to see the patches themselves, too.
+    fn taps(&self) -> bool {
+        false
+    }
+
+    /// A patch of the frame that began last, whatever becomes of it: before its mesh, and in draw
+    /// order.
+    ///
+    /// # Errors
+    /// The sink's own.
+    fn arrived(&mut self, _patch: &Arrived) -> Result<()> {
+        Ok(())
+    }
 }
 
 /// Takes no meshes: counters only.

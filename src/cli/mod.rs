@@ -4,6 +4,8 @@
 //! standard error whatever `-q` says, and begin with the place where that is known. What a command
 //! prints goes to standard output; a reader that leaves early ends the command quietly.
 
+#[cfg(feature = "gpu")]
+mod check;
 mod compare;
 mod config;
 mod convert;
@@ -41,6 +43,8 @@ struct Cli {
 enum Command {
     Run(run::Args),
     Compare(compare::Args),
+    #[cfg(feature = "gpu")]
+    Check(check::Args),
     Info(info::Args),
     Config(config::Args),
     Counters(counters::Args),
@@ -76,6 +80,8 @@ impl Cli {
         match &self.command {
             Command::Run(args) => run::run(args, self.quiet),
             Command::Compare(args) => compare::run(args, self.quiet),
+            #[cfg(feature = "gpu")]
+            Command::Check(args) => check::run(args, self.quiet),
             Command::Info(args) => info::run(args),
             Command::Config(args) => config::run(args),
             Command::Counters(args) => counters::run(args),

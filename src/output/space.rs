@@ -63,7 +63,7 @@ pub(super) mod tests {
             near: 1,
             facing: 1,
         };
-        FrameInfo { number: 0, view, grid: Grid::Fx16 }
+        FrameInfo { number: 0, view, grid: Grid::Fx16, eye: view, object: view.position, near: 0.1 }
     }
 
     #[test]

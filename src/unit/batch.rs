@@ -248,7 +248,8 @@ impl Batch {
     ) -> Result<Vec<Tally>> {
         self.quantise(config, frame, counters);
         let mut edges = std::mem::take(&mut self.edges);
-        let mut work = Work::<M> { batch: self, config, frame, measured: Vec::new() };
+        let taps = sink.as_ref().is_some_and(|sink| sink.taps());
+        let mut work = Work::<M> { batch: self, config, frame, taps, measured: Vec::new() };
         work.measure(counters);
         let (batch, edges_now) = (&*self, &mut edges);
         let mut timed = Timing::new(batch, config, clock, edges_now);
@@ -277,6 +278,8 @@ struct Work<'a, M: Make> {
     batch: &'a Batch,
     config: &'a Config,
     frame: &'a FrameState,
+    /// Whether the sink sees the patches themselves.
+    taps: bool,
     /// What became of the patches that are only measured, patch by patch; empty where none is.
     measured: Vec<Option<Done<M::Lists>>>,
 }
@@ -386,6 +389,9 @@ impl<M: Make> Work<'_, M> {
                 object: object.as_ref(),
                 ..draw.input(&patch, &shaded, &self.frame.view)
             };
+            if keep && self.taps {
+                pieces.arrived.push(input.arrived());
+            }
             if pipeline.accept(&input) {
                 pieces.tally(draw.number, pipeline);
                 if keep {

@@ -10,6 +10,7 @@ use super::chain::{Fate, Flow, Work};
 use super::frame::FrameState;
 use super::union::{Pass, Share};
 use crate::config::{Config, Normals};
+use crate::sink::Arrived;
 use rtl_model::backface::{self, Verdict};
 use rtl_model::clip;
 use rtl_model::counter::{Counter, Counters};
@@ -79,6 +80,23 @@ pub(super) struct Input<'a> {
     pub(super) view: &'a View,
     /// The level of resolution that the driver chose for all of its draw (unit `esc`).
     pub(super) object_level: Option<u8>,
+}
+
+impl Input<'_> {
+    /// What a sink is told of it.
+    pub(super) fn arrived(&self) -> Arrived {
+        let elsewhere = !std::ptr::eq(self.patch, self.seen);
+        Arrived {
+            patch: *self.patch,
+            seen: elsewhere.then_some(*self.seen),
+            shaded: *self.shaded,
+            object: self.object.copied(),
+            object_level: self.object_level,
+            state: *self.state,
+            components: self.components as u32, // of a vertex: a few
+            hull_bytes: self.hull_bytes,
+        }
+    }
 }
 
 /// What levels are chosen from.

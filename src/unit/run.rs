@@ -147,7 +147,14 @@ impl<'a, M: Make> Run<'a, M> {
         let number = self.frames.len() as u64;
         if self.sink.wants(number) {
             let view = View { position: state.position(self.config), ..state.view };
-            self.sink.frame(&FrameInfo { number, view, grid: grid(self.config.unit) })?;
+            self.sink.frame(&FrameInfo {
+                number,
+                view,
+                grid: grid(self.config.unit),
+                eye: state.view,
+                object: state.object,
+                near: state.near(),
+            })?;
         }
         self.counters.add(Counter::TraceFrames, 1);
         self.frame = Some(state);

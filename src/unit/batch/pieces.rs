@@ -3,7 +3,7 @@
 use super::{DrawState, Pending, Tally};
 use crate::attribute::AttributeTable;
 use crate::error::Result;
-use crate::sink::{PatchMesh, Sink};
+use crate::sink::{Arrived, PatchMesh, Sink};
 use crate::unit::chain::{Flow, Work as Done};
 use crate::unit::pipeline::{Make, Pipeline};
 use rtl_model::counter::Counters;
@@ -21,6 +21,8 @@ pub(super) struct Pieces<T> {
     triangles: Vec<Triangle>,
     attributes: Vec<i64>,
     tallies: Vec<Tally>,
+    /// The patches themselves, where the sink wants them.
+    pub(super) arrived: Vec<Arrived>,
     pub(super) done: Vec<Done<T>>,
     pub(super) counters: Counters,
 }
@@ -72,9 +74,13 @@ impl<T: Flow> Pieces<T> {
     }
 
     pub(super) fn send(&self, sink: &mut dyn Sink) -> Result<()> {
+        let mut arrived = self.arrived.iter().peekable();
         let (mut v, mut s, mut t) = (0, 0, 0);
         let mut values = &self.attributes[..];
         for piece in &self.patches {
+            while let Some(patch) = arrived.next_if(|arrived| arrived.patch.id <= piece.id) {
+                sink.arrived(patch)?;
+            }
             let components = piece.table.as_ref().map_or(0, |table| table.components());
             let (attributes, later) = values.split_at(components * (piece.vertices - v));
             values = later;
@@ -90,7 +96,7 @@ impl<T: Flow> Pieces<T> {
             })?;
             (v, s, t) = (piece.vertices, piece.screen, piece.triangles);
         }
-        Ok(())
+        arrived.try_for_each(|patch| sink.arrived(patch))
     }
 
     pub(super) fn account(self, counters: &mut Counters, tallies: &mut Vec<Tally>) {

@@ -1,0 +1,127 @@
+//! Whole units: what the kernels make of a batch, and the meshes beside each other.
+
+use super::ledger::Ledger;
+use super::tap::{Item, Mesh};
+use crate::config::{Config, Unit};
+use crate::error::Result;
+use crate::gpu::{self, Device, Made, Settings, VERTEX, integer, push_patch};
+use crate::sink::{Arrived, FrameInfo};
+use rtl_model::level::{self, Criterion};
+use rtl_model::patch::Patch;
+
+/// The tessellation state as the kernels have it.
+pub(super) fn state(state: &level::State) -> gpu::State {
+    let (criterion, number) = match state.criterion {
+        Criterion::Flatness { pixels } => (0, pixels),
+        Criterion::EdgeLength { pixels } => (1, pixels),
+        Criterion::Fixed { level } => (2, level.fx16()),
+    };
+    [criterion, number, state.min.fx16(), state.max.fx16()]
+}
+
+fn patches<'a>(
+    items: &'a [Item],
+    of: impl Fn(&'a Arrived) -> Option<Patch>,
+) -> Option<Vec<u32>> {
+    let mut out = Vec::with_capacity(gpu::PATCH * items.len());
+    for Item { arrived, .. } in items {
+        push_patch(&mut out, &of(arrived)?, state(&arrived.state), [0; 3]);
+    }
+    Some(out)
+}
+
+/// Runs the unit's kernels on a batch.
+pub(super) fn make(
+    device: &Device,
+    config: &Config,
+    frame: &FrameInfo,
+    items: &[Item],
+) -> Result<Made> {
+    let settings = Settings::new(config, &frame.eye, frame.view.position);
+    let own = patches(items, |arrived| Some(arrived.patch)).expect("every item has a patch");
+    let components: Vec<u32> = items.iter().map(|item| item.arrived.components).collect();
+    match config.unit {
+        Unit::Hybrid | Unit::Triangles | Unit::Sfarti | Unit::Moreton => {
+            let seen = patches(items, |arrived| arrived.seen);
+            gpu::surface::surface(
+                device,
+                &gpu::surface::Surface {
+                    config,
+                    settings,
+                    patches: &own,
+                    seen: seen.as_deref(),
+                    components: &components,
+                },
+            )
+        }
+        Unit::D3d11 => {
+            todo!()
+        }
+        Unit::Esc => {
+            todo!()
+        }
+    }
+}
+
+/// Compares what both made of each patch.
+pub(super) fn compare(ledger: &mut Ledger, frame: &FrameInfo, items: &[Item], made: &Made) {
+    let none = Mesh::default();
+    for (k, item) in items.iter().enumerate() {
+        let mesh = item.mesh.as_ref().unwrap_or(&none);
+        let at = |starts: &[u32], words: usize| {
+            words * starts[k] as usize..words * starts[k + 1] as usize
+        };
+        let vertices = &made.vertices[at(&made.vertex_starts, VERTEX)];
+        let screen = match made.screen.is_empty() {
+            true => &[][..],
+            false => &made.screen[at(&made.vertex_starts, 3)],
+        };
+        let triangles = &made.triangles[at(&made.triangle_starts, 3)];
+        let place = format!("frame {}, patch {}", frame.number, item.arrived.patch.id);
+        let mut each = |row, what, size: usize, cpu: &[u32], gpu: &[u32]| {
+            parts(ledger, row, (&place, what, size), (cpu, gpu), &item.arrived);
+        };
+        each(("unit", "vertices"), "vertex", VERTEX, &mesh.vertices, vertices);
+        each(("unit", "screen positions"), "vertex", 3, &mesh.screen, screen);
+        each(("unit", "triangles"), "triangle", 3, &mesh.triangles, triangles);
+    }
+}
+
+/// Compares one by one, where the whole differs, so that the first difference is named.
+fn parts(
+    ledger: &mut Ledger,
+    row: (&'static str, &'static str),
+    (place, what, size): (&str, &str, usize),
+    (cpu, gpu): (&[u32], &[u32]),
+    arrived: &Arrived,
+) {
+    let inputs = || net(&arrived.patch);
+    if cpu == gpu {
+        return ledger.compare(row, cpu, gpu, String::new, String::new);
+    }
+    for k in 0..cpu.len().max(gpu.len()).div_ceil(size) {
+        let part = |all: &[u32]| -> Vec<u32> {
+            all.iter().skip(k * size).take(size).copied().collect()
+        };
+        let place = || format!("{place}, {what} {k}");
+        ledger.compare(row, &part(cpu), &part(gpu), place, inputs);
+    }
+}
+
+/// Control points, as a person can feed them to something.
+pub(super) fn net(patch: &Patch) -> String {
+    let points = patch.points.map(|p| p.map(|c| format!("{c:#x}")).join(" "));
+    format!(
+        "control points [{}], saturated {}, cull {}, reversed {}",
+        points.join(", "),
+        patch.saturated,
+        patch.cull,
+        patch.reversed
+    )
+}
+
+/// The integer that two words of a vertex make, for tables.
+#[allow(dead_code)]
+pub(super) fn coordinate(words: &[u32], axis: usize) -> i64 {
+    integer([words[2 * axis], words[2 * axis + 1]])
+}
