@@ -1,6 +1,7 @@
 //! The adapter: found, opened, given kernels and buffers, and read again.
 
 use super::kernel::{Kernel, Sources};
+use super::record::Dispatch;
 use super::settings::Settings;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
@@ -58,6 +59,8 @@ pub struct Device {
     /// Bytes that a binding may have.
     binding_max: u64,
     lost: Arc<Mutex<Option<String>>>,
+    /// What was dispatched, while that is recorded.
+    record: Mutex<Option<Vec<Dispatch>>>,
 }
 
 /// Words on the device.
@@ -73,6 +76,13 @@ impl Buffer {
     pub fn words(&self) -> usize {
         self.words
     }
+}
+
+/// Groups along both axes for so many invocations.
+fn grid(items: u32) -> [u32; 2] {
+    let groups = items.div_ceil(GROUP);
+    let rows = groups.div_ceil(GROUPS_MAX);
+    [groups.div_ceil(rows), rows]
 }
 
 impl Device {
@@ -126,6 +136,7 @@ impl Device {
             pipelines: Mutex::default(),
             binding_max: limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
             lost,
+            record: Mutex::default(),
         })
     }
 
@@ -203,6 +214,45 @@ impl Device {
         if settings.items == 0 {
             return Ok(());
         }
+        let recorded = self.record.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let before = if recorded { self.contents(buffers)? } else { Vec::new() };
+        let groups = grid(settings.items);
+        self.dispatch((kernel, entry), settings, buffers, groups)?;
+        if !recorded {
+            return Ok(());
+        }
+        let after = self.contents(buffers)?;
+        let settings = bytemuck::cast_slice(bytemuck::bytes_of(settings)).to_vec();
+        let files = Sources::parts(kernel);
+        let dispatch = Dispatch { files, entry, groups, settings, before, after };
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        record.get_or_insert_default().push(dispatch);
+        Ok(())
+    }
+
+    /// What is dispatched from now on is recorded, with the contents of all its buffers.
+    pub fn record(&self) {
+        *self.record.lock().unwrap_or_else(PoisonError::into_inner) = Some(Vec::new());
+    }
+
+    /// What was recorded; no more is.
+    #[must_use]
+    pub fn recorded(&self) -> Vec<Dispatch> {
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        record.take().unwrap_or_default()
+    }
+
+    fn contents(&self, buffers: &[&Buffer]) -> Result<Vec<Vec<u32>>> {
+        buffers.iter().map(|buffer| self.read(buffer, 0, buffer.words)).collect()
+    }
+
+    fn dispatch(
+        &self,
+        (kernel, entry): (Kernel, &'static str),
+        settings: &Settings,
+        buffers: &[&Buffer],
+        [columns, rows]: [u32; 2],
+    ) -> Result<()> {
         let pipeline = self.pipeline(kernel, entry, buffers.len())?;
         let uniform = self.make(
             size_of::<Settings>() as u64,
@@ -226,9 +276,7 @@ impl Device {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 pass.set_pipeline(&pipeline);
                 pass.set_bind_group(0, &group, &[]);
-                let groups = settings.items.div_ceil(GROUP);
-                let rows = groups.div_ceil(GROUPS_MAX);
-                pass.dispatch_workgroups(groups.div_ceil(rows), rows, 1);
+                pass.dispatch_workgroups(columns, rows, 1);
             }
             self.queue.submit([encoder.finish()]);
         })

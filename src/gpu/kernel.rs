@@ -122,6 +122,11 @@ impl Sources {
         self.replaced.iter().find(|(name, _)| name == file).map_or(text, |(_, text)| text)
     }
 
+    /// The files that make a kernel, in order.
+    pub(super) fn parts(kernel: Kernel) -> Vec<&'static str> {
+        SHARED.map(|(name, _)| name).into_iter().chain([kernel.file()]).collect()
+    }
+
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
         let (name, text) = kernel.embedded();

@@ -8,9 +8,11 @@
 mod device;
 mod kernel;
 mod made;
+mod record;
 mod settings;
 
 pub use device::{Backend, Buffer, Device};
 pub use kernel::{Kernel, Sources};
 pub use made::{Made, Name};
+pub use record::Dispatch;
 pub use settings::{PATCH, Settings, State, VERTEX, integer, push_patch, rounding, words};

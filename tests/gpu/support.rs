@@ -11,7 +11,7 @@ use tessim::study::check::Ledger;
 /// The device of all tests; `None`, with a line that says so, where there is none.
 pub(crate) fn device() -> Option<&'static Device> {
     static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
-    let device = DEVICE.get_or_init(|| match Device::open(Backend::Auto, sources()) {
+    let device = DEVICE.get_or_init(|| match Device::open(backend(), sources()) {
         Ok(device) => Some(device),
         Err(reason) => {
             println!("SKIPPED the second implementation: {reason}");
@@ -19,6 +19,13 @@ pub(crate) fn device() -> Option<&'static Device> {
         }
     });
     device.as_ref()
+}
+
+/// The one that `TESSIM_BACKEND` names.
+fn backend() -> Backend {
+    let name = std::env::var("TESSIM_BACKEND").unwrap_or_else(|_| "auto".to_owned());
+    let found = Backend::ALL.into_iter().find(|backend| backend.name() == name);
+    found.unwrap_or_else(|| panic!("TESSIM_BACKEND: found {name}, expected auto, vulkan or gl"))
 }
 
 fn sources() -> Sources {
