@@ -3,6 +3,8 @@
 #
 #   tests/all.sh                 about a quarter of an hour on two cores, most of it building
 #   tests/all.sh --long          the long campaigns too (TESSIM_LONG=1: tests scale their case counts)
+#   tests/all.sh --mutants       changes every constant of every kernel, one at a time; an hour
+#   tests/all.sh --browser       does recorded kernels again in headless Chromium
 #   tests/all.sh --fuzz SECONDS  then fuzzes each target for that long
 #
 # Tests that cannot run here print a line with SKIPPED and why; they are listed at the end. With CI=true
@@ -11,14 +13,18 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
-    sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    sed -n '2,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit "$1"
 }
 
 fuzz_seconds=0
+mutants=no
+browser=no
 while [ $# -gt 0 ]; do
     case "$1" in
         --long) export TESSIM_LONG=1 ;;
+        --mutants) mutants=yes ;;
+        --browser) browser=yes ;;
         --fuzz)
             fuzz_seconds="${2:-}"
             [[ "$fuzz_seconds" =~ ^[1-9][0-9]*$ ]] || { echo "--fuzz takes seconds" >&2; exit 2; }
@@ -63,11 +69,13 @@ if ! command -v verilator >/dev/null || ! command -v yosys >/dev/null || ! comma
             verilator yosys g++ make; } >/dev/null || echo "apt-get cannot install verilator, yosys"
     fi
 fi
-# Mesa's software OpenGL has a tessellator to compare ours with; it is loaded when the test runs.
-if command -v dpkg >/dev/null && ! dpkg -s libegl1 libgl1-mesa-dri >/dev/null 2>&1; then
+# Mesa's software OpenGL has a tessellator to compare ours with; its software Vulkan runs the second
+# implementation. Both are loaded when a test runs.
+mesa=(libegl1 libgl1-mesa-dri mesa-vulkan-drivers libvulkan1)
+if command -v dpkg >/dev/null && ! dpkg -s "${mesa[@]}" >/dev/null 2>&1; then
     if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
         { apt-get update -qq && apt-get install -y -qq --no-install-recommends \
-            libegl1 libgl1-mesa-dri; } >/dev/null || echo "apt-get cannot install Mesa"
+            "${mesa[@]}"; } >/dev/null || echo "apt-get cannot install Mesa"
     fi
 fi
 need cc "install a C compiler (Debian: gcc libc6-dev)"
@@ -85,10 +93,28 @@ smoke() {
     rm -rf "$out"
 }
 
+# Recorded dispatches, in a browser that brings its own software GPU.
+third_witness() {
+    local work
+    command -v node >/dev/null || { echo "SKIPPED third witness: no node"; return; }
+    if ! command -v chromium >/dev/null && [ "$(id -u)" = 0 ]; then
+        { apt-get update -qq && apt-get install -y -qq --no-install-recommends \
+            chromium; } >/dev/null || { echo "SKIPPED third witness: no chromium"; return; }
+    fi
+    work="$(mktemp -d)"
+    npm install --silent --no-audit --no-fund --prefix "$work" playwright-core@1.65.1 &&
+        TESSIM_RECORD="$work" cargo test --workspace --features gpu --release --test gpu records \
+            -- --nocapture &&
+        NODE_PATH="$work" node tests/browser/witness.mjs "$work"
+    local outcome=$?
+    rm -rf "$work"
+    return $outcome
+}
+
 lockstep() {
     command -v g++ >/dev/null || { echo "SKIPPED lock step: no g++"; return; }
     # Of the workspace, for the same reason.
-    local what=(--workspace --features rtl_model/verilator --test lockstep)
+    local what=(--workspace --features gpu,rtl_model/verilator --test lockstep)
     cargo clippy "${what[@]}" --quiet -- -D warnings &&
         cargo test "${what[@]}" --release -- --nocapture
 }
@@ -111,20 +137,27 @@ fuzz() {
 }
 
 step "format" cargo fmt --all --check
-step "lints" cargo clippy --workspace --all-targets --quiet -- -D warnings
+step "lints" cargo clippy --workspace --features gpu --all-targets --quiet -- -D warnings
 # Optimised: the comparisons with the definitions run millions of cases. Integer overflow stays
 # checked, in all that follows: one profile builds the dependencies once.
 export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
 # --nocapture, or the reasons of skipped tests would not be seen.
 # The lock-step test has its own step: its feature would have all crates built twice.
-step "tests" cargo test --workspace --release --no-fail-fast --lib --bins --tests -- --nocapture \
+step "tests" cargo test --workspace --features gpu --release --no-fail-fast --lib --bins --tests -- --nocapture \
     --skip the_hardware_description_keeps_step
 step "lock step with the SystemVerilog" lockstep
 step "synthesis" synthesis
-step "documentation tests" cargo test --workspace --release --doc
-step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
+step "documentation tests" cargo test --workspace --features gpu --release --doc
+step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --features gpu --no-deps --quiet
 step "a run" smoke
-step "benches build" cargo bench --workspace --no-run
+step "benches build" cargo bench --workspace --features gpu --no-run
+if [ "$mutants" = yes ]; then
+    step "mutants" env TESSIM_MUTANTS=1 cargo test --workspace --features gpu --release --test gpu \
+        mutants -- --nocapture
+fi
+if [ "$browser" = yes ]; then
+    step "third witness" third_witness
+fi
 if [ "$fuzz_seconds" != 0 ]; then
     step "fuzz" fuzz
 fi

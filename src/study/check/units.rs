@@ -4,7 +4,7 @@ use super::ledger::Ledger;
 use super::tap::{Item, Mesh};
 use crate::config::{Config, Unit};
 use crate::error::Result;
-use crate::gpu::{self, Device, Made, Settings, VERTEX, integer, push_patch};
+use crate::gpu::{self, Device, Made, Settings, VERTEX, push_patch};
 use crate::sink::{Arrived, FrameInfo};
 use rtl_model::level::{self, Criterion};
 use rtl_model::patch::Patch;
@@ -55,10 +55,42 @@ pub(super) fn make(
             )
         }
         Unit::D3d11 => {
-            todo!()
+            let shaded = items.iter().flat_map(|item| item.arrived.shaded.as_flattened());
+            let shaded: Vec<u32> = shaded.map(|c| c.to_bits()).collect();
+            let hull_bytes: Vec<u32> = items.iter().map(|item| item.arrived.hull_bytes).collect();
+            let near = frame.near;
+            gpu::d3d11::d3d11(
+                device,
+                &gpu::d3d11::D3d11 {
+                    config,
+                    settings,
+                    near,
+                    patches: &own,
+                    shaded: &shaded,
+                    components: &components,
+                    hull_bytes: &hull_bytes,
+                },
+            )
         }
         Unit::Esc => {
-            todo!()
+            let object = patches(items, |arrived| {
+                arrived.object.map(|points| Patch { points, ..arrived.patch })
+            });
+            let levels: Option<Vec<u32>> =
+                items.iter().map(|item| item.arrived.object_level.map(u32::from)).collect();
+            gpu::esc::esc(
+                device,
+                &gpu::esc::Esc {
+                    config,
+                    settings,
+                    position: frame.eye.position,
+                    object_format: frame.object,
+                    patches: &own,
+                    object: object.as_deref(),
+                    object_levels: levels.as_deref(),
+                    components: &components,
+                },
+            )
         }
     }
 }
@@ -118,10 +150,4 @@ pub(super) fn net(patch: &Patch) -> String {
         patch.cull,
         patch.reversed
     )
-}
-
-/// The integer that two words of a vertex make, for tables.
-#[allow(dead_code)]
-pub(super) fn coordinate(words: &[u32], axis: usize) -> i64 {
-    integer([words[2 * axis], words[2 * axis + 1]])
 }
