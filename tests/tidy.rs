@@ -26,6 +26,14 @@ const WALKED: [&str; 6] =
 const NO_GOLDEN: &[(&str, &str)] =
     &[("strip", "an order of golden::stitch's triangles, which that definition leaves open")];
 
+/// Blocks without kernels, each with its reason.
+const NO_KERNELS: &[(&str, &str)] = &[
+    ("port", "the second implementation begins with what it gives"),
+    ("assemble", "stands before the port's results are taken"),
+    ("attribute", "what it interpolates arrives with the corners, not through the port"),
+    ("strip", "an order of triangles, which kernels of stitch find without it"),
+];
+
 /// Modules of `rtl_model` that are no blocks: they compute nothing that could be compared.
 const NO_BLOCKS: [&str; 4] = ["number", "counter", "patch", "time"];
 
@@ -35,26 +43,30 @@ fn root() -> &'static Path {
 
 /// Every Rust file under the walked folders: its path from the root, with `/`, and its text.
 fn rust_files() -> Vec<(String, String)> {
+    files_of("rs")
+}
+
+fn files_of(kind: &str) -> Vec<(String, String)> {
     let mut files = Vec::new();
     for path in WALKED.map(|path| root().join(path)) {
         if path.exists() {
-            collect(&path, &mut files);
+            collect(&path, kind, &mut files);
         }
     }
     files.sort();
     files
 }
 
-fn collect(path: &Path, files: &mut Vec<(String, String)>) {
+fn collect(path: &Path, kind: &str, files: &mut Vec<(String, String)>) {
     if path.is_dir() {
         for entry in std::fs::read_dir(path).unwrap() {
             let path: PathBuf = entry.unwrap().path();
             if path.join("Cargo.toml").exists() || path.ends_with("target") {
                 continue; // a workspace of its own, such as tests/fuzz
             }
-            collect(&path, files);
+            collect(&path, kind, files);
         }
-    } else if path.extension().is_some_and(|e| e == "rs") {
+    } else if path.extension().is_some_and(|e| e == kind) {
         let name = path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/");
         files.push((name, std::fs::read_to_string(path).unwrap()));
     }
@@ -114,6 +126,35 @@ fn every_block_has_its_golden_definition_or_a_reason() {
         }
     }
     for (stem, reason) in NO_GOLDEN {
+        if !blocks.iter().any(|block| block == stem) || reason.is_empty() {
+            problems.push(format!("{stem}: an exemption for no block, or without a reason"));
+        }
+    }
+    report(&problems);
+}
+
+#[test]
+fn kernels_have_integers_only_and_keep_the_rules() {
+    let files = files_of("wgsl");
+    assert!(files.len() > 10, "only {} kernels found", files.len());
+    let problems: Vec<String> =
+        files.iter().flat_map(|(path, text)| rules::kernel_problems(path, text)).collect();
+    report(&problems);
+}
+
+#[test]
+fn every_block_has_its_kernels_or_a_reason() {
+    let order = arrows::module_order(&text_of("rtl_model/src/lib.rs"));
+    let blocks: Vec<_> = order.iter().filter(|m| !NO_BLOCKS.contains(&m.as_str())).collect();
+    let mut problems = Vec::new();
+    for block in &blocks {
+        let kernels = root().join(format!("src/gpu/{block}.wgsl")).is_file();
+        let excused = NO_KERNELS.iter().any(|(stem, _)| stem == block);
+        if kernels == excused {
+            problems.push(format!("{block}: kernels {kernels}, exemption {excused}"));
+        }
+    }
+    for (stem, reason) in NO_KERNELS {
         if !blocks.iter().any(|block| block == stem) || reason.is_empty() {
             problems.push(format!("{stem}: an exemption for no block, or without a reason"));
         }

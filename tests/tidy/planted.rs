@@ -145,3 +145,21 @@ fn modules_are_listed_in_their_order() {
     assert_eq!(arrows::module_order(lib), ["number", "clip"]);
     assert_eq!(lexer::tokens("a::b \"c\" 1.5").len(), 5);
 }
+
+#[test]
+fn a_kernel_with_floats_or_without_a_head_is_found() {
+    let clean = "// Clip: what it does.\nfn f(a: vec2<u32>) -> i32 { return 1; } // f32 in words\n";
+    assert!(rules::kernel_problems("src/gpu/clip.wgsl", clean).is_empty());
+    for (text, says) in [
+        ("fn f() {}\n", "begins without a comment"),
+        ("// A.\nlet a: f32 = 1.0;\n", ":2: f32"),
+        ("// A.\nlet a: vec2<f16>;\n", ":2: f16"),
+        ("// A.\nlet a = 1li + i64(b);\n", ":2: i64"),
+    ] {
+        let found = rules::kernel_problems("src/gpu/clip.wgsl", text);
+        assert!(found.len() == 1 && found[0].contains(says), "{text}: {found:?}");
+    }
+    assert!(rules::kernel_problems("src/gpu/render/a.wgsl", "// A.\nlet a: f32;\n").is_empty());
+    let long = format!("// A.\n{}", "let a = 1u;\n".repeat(500));
+    assert_eq!(rules::kernel_problems("src/gpu/clip.wgsl", &long).len(), 1);
+}

@@ -39,6 +39,33 @@ fn shape(path: &str, text: &str) -> Vec<String> {
     problems
 }
 
+/// What is wrong with the kernel at `path`: the same shape, and no numbers but integers of 32 bits,
+/// but where pictures are drawn.
+pub(crate) fn kernel_problems(path: &str, text: &str) -> Vec<String> {
+    let mut problems = Vec::new();
+    let lines = text.lines().count();
+    if lines > LINES_MAX {
+        problems.push(format!("{path}: {lines} lines, at most {LINES_MAX}"));
+    }
+    if !text.starts_with("// ") {
+        problems.push(format!("{path}:1: begins without a comment that says what it is"));
+    }
+    let draws = path.starts_with("src/gpu/render/");
+    for (number, line) in (1..).zip(text.lines()) {
+        let columns = line.chars().count();
+        if columns > COLUMNS_MAX {
+            problems.push(format!("{path}:{number}: {columns} columns, at most {COLUMNS_MAX}"));
+        }
+        let code = line.split("//").next().unwrap_or_default();
+        let mut words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let wide = words.find(|word| ["f32", "f16", "i64", "u64"].contains(word));
+        if let (Some(word), false) = (wide, draws) {
+            problems.push(format!("{path}:{number}: {word}: integers of 32 bits only"));
+        }
+    }
+    problems
+}
+
 /// The one exemption from the width of lines: the table of counters has a line a counter, which
 /// reads and diffs better than what would come of wrapping it.
 fn counter_table(path: &str, text: &str) -> std::ops::Range<usize> {
