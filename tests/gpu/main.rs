@@ -15,6 +15,8 @@ mod number;
 #[path = "../support/random.rs"]
 mod random;
 #[cfg(feature = "gpu")]
+mod records;
+#[cfg(feature = "gpu")]
 mod support;
 
 #[cfg(not(feature = "gpu"))]

@@ -21,6 +21,12 @@ pub(crate) fn device() -> Option<&'static Device> {
     device.as_ref()
 }
 
+/// A device that no other test dispatches on.
+pub(crate) fn another() -> Option<Device> {
+    device()?;
+    Device::open(backend(), sources()).ok()
+}
+
 /// The one that `TESSIM_BACKEND` names.
 fn backend() -> Backend {
     let name = std::env::var("TESSIM_BACKEND").unwrap_or_else(|_| "auto".to_owned());
