@@ -14,6 +14,10 @@ pub enum Kernel {
     Clip,
     /// Back-face removal.
     Backface,
+    /// The same by the hull's facets.
+    BackfaceHull,
+    /// The same by cones.
+    BackfaceCone,
     /// Levels and dyadic lists.
     Level,
     /// Parameters.
@@ -38,11 +42,13 @@ const SHARED: [(&str, &str); 2] = [
 
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
         Self::Backface,
+        Self::BackfaceHull,
+        Self::BackfaceCone,
         Self::Level,
         Self::Place,
         Self::Evaluate,
@@ -58,12 +64,22 @@ impl Kernel {
         self.embedded().0
     }
 
+    /// The kernel whose text stands before this one's.
+    const fn base(self) -> Option<Self> {
+        match self {
+            Self::BackfaceHull | Self::BackfaceCone => Some(Self::Backface),
+            _ => None,
+        }
+    }
+
     const fn embedded(self) -> (&'static str, &'static str) {
         match self {
             Self::Number => ("operations.wgsl", include_str!("operations.wgsl")),
             Self::Scan => ("scan.wgsl", include_str!("scan.wgsl")),
             Self::Clip => ("clip.wgsl", include_str!("clip.wgsl")),
             Self::Backface => ("backface.wgsl", include_str!("backface.wgsl")),
+            Self::BackfaceHull => ("backface_hull.wgsl", include_str!("backface_hull.wgsl")),
+            Self::BackfaceCone => ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
             Self::Level => ("level.wgsl", include_str!("level.wgsl")),
             Self::Place => ("place.wgsl", include_str!("place.wgsl")),
             Self::Evaluate => ("evaluate.wgsl", include_str!("evaluate.wgsl")),
@@ -124,8 +140,8 @@ impl Sources {
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let (name, text) = kernel.embedded();
-        let shared = SHARED.map(|(name, text)| self.of(name, text));
-        [shared[0], shared[1], self.of(name, text)].join("\n")
+        let own = kernel.base().into_iter().chain([kernel]).map(Kernel::embedded);
+        let texts = SHARED.into_iter().chain(own).map(|(name, text)| self.of(name, text));
+        texts.collect::<Vec<_>>().join("\n")
     }
 }
