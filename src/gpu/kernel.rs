@@ -18,8 +18,10 @@ pub enum Kernel {
     BackfaceHull,
     /// The same by cones.
     BackfaceCone,
-    /// Levels and dyadic lists.
+    /// Levels.
     Level,
+    /// Dyadic lists.
+    Curve,
     /// Parameters.
     Place,
     /// Points.
@@ -42,7 +44,7 @@ const SHARED: [(&str, &str); 2] = [
 
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
@@ -50,6 +52,7 @@ impl Kernel {
         Self::BackfaceHull,
         Self::BackfaceCone,
         Self::Level,
+        Self::Curve,
         Self::Place,
         Self::Evaluate,
         Self::Stitch,
@@ -68,6 +71,7 @@ impl Kernel {
     const fn base(self) -> Option<Self> {
         match self {
             Self::BackfaceHull | Self::BackfaceCone => Some(Self::Backface),
+            Self::Curve => Some(Self::Level),
             _ => None,
         }
     }
@@ -81,6 +85,7 @@ impl Kernel {
             Self::BackfaceHull => ("backface_hull.wgsl", include_str!("backface_hull.wgsl")),
             Self::BackfaceCone => ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
             Self::Level => ("level.wgsl", include_str!("level.wgsl")),
+            Self::Curve => ("level_curve.wgsl", include_str!("level_curve.wgsl")),
             Self::Place => ("place.wgsl", include_str!("place.wgsl")),
             Self::Evaluate => ("evaluate.wgsl", include_str!("evaluate.wgsl")),
             Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),

@@ -52,6 +52,6 @@ pub fn subdivide(
     device.run(Kernel::Curve, "curve", &each, &[patches, fates, &curves])?;
     let lists = device.empty(LISTS * items)?;
     let buffers = [patches, fates, &lists, &levels, &curves];
-    device.run(Kernel::Lists, "lists", settings, &buffers)?;
+    device.run(Kernel::Curve, "lists", settings, &buffers)?;
     Ok(lists)
 }
