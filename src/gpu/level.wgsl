@@ -55,8 +55,29 @@ struct Pixel {
     fits: bool,
 }
 
+// Where `rest` takes in so many times w: what is left, and in `digit` the bit that says so.
+struct Step {
+    rest: I64,
+    digit: u32,
+}
+
+fn step(before: Step, w: I64, bit: u32) -> Step {
+    let part = shl64(w, bit);
+    if (below64(before.rest, part)) {
+        return before;
+    }
+    return Step(sub64(before.rest, part), before.digit | (1u << bit));
+}
+
+// The next four bits of a number that are to come, behind those of another.
+fn append(a: I64, digit: u32) -> I64 {
+    return I64((a.x << 4u) | digit, (a.y << 4u) | (a.x >> 28u));
+}
+
 // c / w in pixels of a viewport of that size, to the nearest, of two the even one. c and w, which
-// is above 0, have up to 60 bits; a viewport 15.
+// is above 0, have up to 60 bits; a viewport 15. Four bits of the quotient at a time: lavapipe ends
+// the loops of an invocation when they have turned 65535 times, all of them together, and this one
+// turns most of a subdivision's times.
 fn pixel(c: I64, w: I64, size: u32) -> Pixel {
     let numerator = mul_unsigned(abs64(c), I64(size << (FRACTION - 1u), 0u));
     let high = shr128(numerator, PIXEL_BITS + 1u);
@@ -67,14 +88,13 @@ fn pixel(c: I64, w: I64, size: u32) -> Pixel {
     var quotient = NONE64;
     // The numerator's bits that are to come, from the top.
     var bits = shl64(numerator.xy, 63u - PIXEL_BITS);
-    for (var k = 0u; k <= PIXEL_BITS; k += 1u) {
-        rest = I64((rest.x << 1u) | (bits.y >> 31u), (rest.y << 1u) | (rest.x >> 31u));
-        bits = I64(bits.x << 1u, (bits.y << 1u) | (bits.x >> 31u));
-        quotient = I64(quotient.x << 1u, (quotient.y << 1u) | (quotient.x >> 31u));
-        if (!below64(rest, w)) {
-            rest = sub64(rest, w);
-            quotient.x |= 1u;
-        }
+    for (var k = 0u; k <= PIXEL_BITS; k += 4u) {
+        var next = Step(append(rest, bits.y >> 28u), 0u);
+        next = step(step(next, w, 3u), w, 2u);
+        next = step(step(next, w, 1u), w, 0u);
+        rest = next.rest;
+        bits = append(bits, 0u);
+        quotient = append(quotient, next.digit);
     }
     let twice = shl64(rest, 1u);
     let up = below64(w, twice) || (all(w == twice) && (quotient.x & 1u) != 0u);
