@@ -14,8 +14,14 @@ pub enum Kernel {
     Clip,
     /// Back-face removal.
     Backface,
-    /// Levels and dyadic lists.
+    /// The same by the hull's facets.
+    BackfaceHull,
+    /// The same by cones.
+    BackfaceCone,
+    /// Levels.
     Level,
+    /// Dyadic lists.
+    Curve,
     /// Parameters.
     Place,
     /// Points.
@@ -38,12 +44,15 @@ const SHARED: [(&str, &str); 2] = [
 
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
         Self::Backface,
+        Self::BackfaceHull,
+        Self::BackfaceCone,
         Self::Level,
+        Self::Curve,
         Self::Place,
         Self::Evaluate,
         Self::Stitch,
@@ -58,13 +67,25 @@ impl Kernel {
         self.embedded().0
     }
 
+    /// The kernel whose text stands before this one's.
+    const fn base(self) -> Option<Self> {
+        match self {
+            Self::BackfaceHull | Self::BackfaceCone => Some(Self::Backface),
+            Self::Curve => Some(Self::Level),
+            _ => None,
+        }
+    }
+
     const fn embedded(self) -> (&'static str, &'static str) {
         match self {
             Self::Number => ("operations.wgsl", include_str!("operations.wgsl")),
             Self::Scan => ("scan.wgsl", include_str!("scan.wgsl")),
             Self::Clip => ("clip.wgsl", include_str!("clip.wgsl")),
             Self::Backface => ("backface.wgsl", include_str!("backface.wgsl")),
+            Self::BackfaceHull => ("backface_hull.wgsl", include_str!("backface_hull.wgsl")),
+            Self::BackfaceCone => ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
             Self::Level => ("level.wgsl", include_str!("level.wgsl")),
+            Self::Curve => ("level_curve.wgsl", include_str!("level_curve.wgsl")),
             Self::Place => ("place.wgsl", include_str!("place.wgsl")),
             Self::Evaluate => ("evaluate.wgsl", include_str!("evaluate.wgsl")),
             Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),
@@ -129,8 +150,8 @@ impl Sources {
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let (name, text) = kernel.embedded();
-        let shared = SHARED.map(|(name, text)| self.of(name, text));
-        [shared[0], shared[1], self.of(name, text)].join("\n")
+        let own = kernel.base().into_iter().chain([kernel]).map(Kernel::embedded);
+        let texts = SHARED.into_iter().chain(own).map(|(name, text)| self.of(name, text));
+        texts.collect::<Vec<_>>().join("\n")
     }
 }

@@ -40,6 +40,7 @@ fn operation(a: I256, b: I256) -> I256 {
         case 22u: { return wide128(max128(abs128(a.lo), b.lo)); }
         case 23u: { return flag(is_positive128(a.lo)); }
         case 24u: { return flag(is_positive256(a)); }
+        case 25u: { return mul_mixed(a.lo.xy, b.lo); }
         default: { return a; }
     }
 }

@@ -6,7 +6,11 @@
 #![cfg_attr(not(feature = "gpu"), allow(dead_code, unused_imports, reason = "nothing to compare"))]
 
 #[cfg(feature = "gpu")]
+mod backface;
+#[cfg(feature = "gpu")]
 mod clip;
+#[cfg(feature = "gpu")]
+mod level;
 #[cfg(feature = "gpu")]
 mod mutants;
 #[cfg(feature = "gpu")]
