@@ -9,6 +9,7 @@ mod device;
 mod kernel;
 mod made;
 mod settings;
+pub mod surface;
 
 pub use device::{Backend, Buffer, Device};
 pub use kernel::{Kernel, Sources};

@@ -6,12 +6,22 @@
 #![cfg_attr(not(feature = "gpu"), allow(dead_code, unused_imports, reason = "nothing to compare"))]
 
 #[cfg(feature = "gpu")]
+mod batch;
+#[cfg(feature = "gpu")]
 mod clip;
 #[cfg(feature = "gpu")]
+mod emit;
+#[cfg(feature = "gpu")]
+mod evaluate;
+#[cfg(feature = "gpu")]
 mod number;
+#[cfg(feature = "gpu")]
+mod place;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]
 mod random;
+#[cfg(feature = "gpu")]
+mod stitch;
 #[cfg(feature = "gpu")]
 mod support;
 
