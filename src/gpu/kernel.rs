@@ -14,12 +14,22 @@ pub enum Kernel {
     Clip,
     /// Back-face removal.
     Backface,
-    /// Levels and dyadic lists.
+    /// The same by the hull's facets.
+    BackfaceHull,
+    /// The same by cones.
+    BackfaceCone,
+    /// Levels.
     Level,
+    /// Dyadic lists.
+    Curve,
+    /// What the next three have in common; no entry.
+    Plan,
     /// Parameters.
     Place,
     /// Points.
     Evaluate,
+    /// Tangent planes.
+    Normal,
     /// Triangles.
     Stitch,
     /// Screen positions.
@@ -38,14 +48,19 @@ const SHARED: [(&str, &str); 2] = [
 
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 16] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
         Self::Backface,
+        Self::BackfaceHull,
+        Self::BackfaceCone,
         Self::Level,
+        Self::Curve,
+        Self::Plan,
         Self::Place,
         Self::Evaluate,
+        Self::Normal,
         Self::Stitch,
         Self::Emit,
         Self::D3d11,
@@ -58,15 +73,30 @@ impl Kernel {
         self.embedded().0
     }
 
+    /// The kernel whose text stands before this one's.
+    const fn base(self) -> Option<Self> {
+        match self {
+            Self::BackfaceHull | Self::BackfaceCone => Some(Self::Backface),
+            Self::Curve => Some(Self::Level),
+            Self::Place | Self::Evaluate | Self::Stitch => Some(Self::Plan),
+            _ => None,
+        }
+    }
+
     const fn embedded(self) -> (&'static str, &'static str) {
         match self {
             Self::Number => ("operations.wgsl", include_str!("operations.wgsl")),
             Self::Scan => ("scan.wgsl", include_str!("scan.wgsl")),
             Self::Clip => ("clip.wgsl", include_str!("clip.wgsl")),
             Self::Backface => ("backface.wgsl", include_str!("backface.wgsl")),
+            Self::BackfaceHull => ("backface_hull.wgsl", include_str!("backface_hull.wgsl")),
+            Self::BackfaceCone => ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
             Self::Level => ("level.wgsl", include_str!("level.wgsl")),
+            Self::Curve => ("level_curve.wgsl", include_str!("level_curve.wgsl")),
+            Self::Plan => ("plan.wgsl", include_str!("plan.wgsl")),
             Self::Place => ("place.wgsl", include_str!("place.wgsl")),
             Self::Evaluate => ("evaluate.wgsl", include_str!("evaluate.wgsl")),
+            Self::Normal => ("normal.wgsl", include_str!("normal.wgsl")),
             Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),
             Self::Emit => ("emit.wgsl", include_str!("emit.wgsl")),
             Self::D3d11 => ("d3d11.wgsl", include_str!("d3d11.wgsl")),
@@ -124,8 +154,8 @@ impl Sources {
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let (name, text) = kernel.embedded();
-        let shared = SHARED.map(|(name, text)| self.of(name, text));
-        [shared[0], shared[1], self.of(name, text)].join("\n")
+        let own = kernel.base().into_iter().chain([kernel]).map(Kernel::embedded);
+        let texts = SHARED.into_iter().chain(own).map(|(name, text)| self.of(name, text));
+        texts.collect::<Vec<_>>().join("\n")
     }
 }

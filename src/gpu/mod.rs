@@ -5,13 +5,17 @@
 //! nothing with that but the words of patches and settings, so what both say is not one mistake
 //! made once. Kernels have integers only, of 32 bits ([`Sources`]): they run wherever WebGPU does.
 
+mod backface;
 mod device;
 mod kernel;
+mod level;
 mod made;
 mod settings;
 pub mod surface;
 
+pub use backface::backface;
 pub use device::{Backend, Buffer, Device};
 pub use kernel::{Kernel, Sources};
+pub use level::{LEVELS, LISTS, level, subdivide};
 pub use made::{Made, Name};
 pub use settings::{PATCH, Settings, State, VERTEX, integer, push_patch, rounding, words};

@@ -313,6 +313,18 @@ fn mul_signed128(a: I128, b: I128) -> I256 {
     return size;
 }
 
+// Of 64 and 128 bits, exactly: signed.
+fn mul_mixed(a: I64, b: I128) -> I256 {
+    let size = abs128(b);
+    let low = mul_unsigned(abs64(a), size.xy);
+    let high = mul_unsigned(abs64(a), size.zw);
+    let product = add256(I256(low, NONE128), I256(I128(NONE64, high.xy), I128(high.zw, NONE64)));
+    if (is_negative64(a) != is_negative128(b)) {
+        return neg256(product);
+    }
+    return product;
+}
+
 // ---- rounding
 
 // What is added to a value before it is shifted down by n >= 1: a half, or less on the ties that go

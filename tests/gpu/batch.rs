@@ -199,7 +199,12 @@ impl Division {
         }
     }
 
-    fn expected(&self, source: Source, patch: &Patch, evaluate: &mut Evaluate) -> Expected {
+    pub(crate) fn expected(
+        &self,
+        source: Source,
+        patch: &Patch,
+        evaluate: &mut Evaluate,
+    ) -> Expected {
         let mut made = Expected::default();
         match *self {
             Self::Fractional(levels) => {

@@ -3,8 +3,9 @@
 use crate::batch::Batch;
 use crate::random::Random;
 use crate::support;
-use tessim::gpu::VERTEX;
+use rtl_model::evaluate::tangent_plane;
 use tessim::gpu::surface::{self, EVENTS, Source};
+use tessim::gpu::{VERTEX, words};
 use tessim::study::check::Ledger;
 
 #[test]
@@ -61,4 +62,41 @@ fn vertices_are_evaluated_alike() {
     assert!(overflows > 1000, "points leave the range");
     assert!(batches.iter().all(|&n| n > 10), "every scheme");
     support::settle(&ledger, 100);
+}
+
+#[test]
+fn tangent_planes_are_evaluated_alike() {
+    let Some(device) = support::device() else { return };
+    let mut ledger = Ledger::default();
+    let mut random = Random::new(77);
+    let mut vanished = 0;
+    for width in 8..=48 {
+        let count = 8 * support::effort();
+        let batch = Batch::draw(&mut random, width, Source::Levels, count, 5);
+        let uploaded = batch.place(device);
+        let (placed, all) = (&uploaded.placed, 0..count);
+        let expected = batch.expected();
+        let vertices: Vec<u32> = expected.iter().flat_map(|made| made.vertex_words()).collect();
+        let (vertices, events) = (device.upload(&vertices).unwrap(), device.empty(EVENTS).unwrap());
+        let buffers = [&uploaded.patches, &vertices, &events];
+        let planes = surface::planes(device, &batch.settings, placed, &all, buffers).unwrap();
+        let got = device.read(&planes, 0, 8 * placed.vertices.items(&all)).unwrap();
+        let both = batch.patches.iter().zip(&expected);
+        let points = both.flat_map(|(patch, made)| made.vertices.iter().map(move |v| (patch, v)));
+        let before = vanished;
+        for ((patch, vertex), got) in points.zip(got.chunks(8)) {
+            let plane = tangent_plane(patch, vertex.u, vertex.v);
+            vanished += u32::from(plane == [0; 4]);
+            let want: Vec<u32> = plane.into_iter().flat_map(words).collect();
+            let place = || format!("{width} bits, at {:x}, {:x}", vertex.u, vertex.v);
+            let inputs = || format!("{:x?}", patch.points);
+            ledger.compare(("evaluate", "planes"), &want, got, place, inputs);
+        }
+        let got = device.read(&events, 3, 1).unwrap();
+        let place = || format!("{width} bits");
+        let want = [vanished - before];
+        ledger.compare(("evaluate", "planes that vanish"), &want, &got, place, String::new);
+    }
+    assert!(vanished > 100, "only {vanished} planes vanish");
+    support::settle(&ledger, 41);
 }

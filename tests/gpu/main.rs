@@ -6,6 +6,8 @@
 #![cfg_attr(not(feature = "gpu"), allow(dead_code, unused_imports, reason = "nothing to compare"))]
 
 #[cfg(feature = "gpu")]
+mod backface;
+#[cfg(feature = "gpu")]
 mod batch;
 #[cfg(feature = "gpu")]
 mod clip;
@@ -13,6 +15,8 @@ mod clip;
 mod emit;
 #[cfg(feature = "gpu")]
 mod evaluate;
+#[cfg(feature = "gpu")]
+mod level;
 #[cfg(feature = "gpu")]
 mod number;
 #[cfg(feature = "gpu")]
@@ -24,6 +28,8 @@ mod random;
 mod stitch;
 #[cfg(feature = "gpu")]
 mod support;
+#[cfg(feature = "gpu")]
+mod surface;
 
 #[cfg(not(feature = "gpu"))]
 #[test]

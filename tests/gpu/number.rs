@@ -79,7 +79,7 @@ fn rounded(mode: Rounding, work: impl Modal<Output = i128>) -> I256 {
 use Operands::{Any64, Any128, Any256, Positive, Root};
 
 #[rustfmt::skip]
-const OPERATIONS: [Operation; 27] = [
+const OPERATIONS: [Operation; 28] = [
     Operation { name: "add64", operands: Any64, result: |a, b, _| low(a).wrapping_add(low(b)).into() },
     Operation { name: "sub64", operands: Any64, result: |a, b, _| low(a).wrapping_sub(low(b)).into() },
     Operation { name: "mul64", operands: Any64, result: |a, b, _| low(a).wrapping_mul(low(b)).into() },
@@ -108,6 +108,7 @@ const OPERATIONS: [Operation; 27] = [
     Operation { name: "max128 abs128", operands: Any128, result: |a, b, _| a.as_i128().wrapping_abs().max(b.as_i128()).into() },
     Operation { name: "is_positive128", operands: Any128, result: |a, _, _| flag(a.as_i128() > 0) },
     Operation { name: "is_positive256", operands: Any256, result: |a, _, _| flag(a > 0) },
+    Operation { name: "mul_mixed", operands: Any128, result: |a, b, _| I256::from(low(a)) * b },
     Operation { name: "select128", operands: Operands::SetBit, result: |a, b, _| set_bit(a, b.as_u32()).into() },
     Operation { name: "count_below128", operands: Operands::Shift(128, 129), result: |a, b, _| {
         let below = (U256::ONE << b.as_u32()) - 1;

@@ -7,7 +7,7 @@ use crate::gpu::kernel::Kernel;
 use crate::gpu::settings::{Settings, VERTEX};
 use std::ops::Range;
 
-/// Words of a patch's plan, as settings.wgsl says.
+/// Words of a patch's plan, as plan.wgsl says.
 pub const PLAN: usize = 56;
 
 /// Words of a plan that are counted over all patches, from the first one.
@@ -188,6 +188,27 @@ pub fn evaluate(
     run("rows", 4 * line_count)?;
     run("evaluate", count)?;
     Ok(vertices)
+}
+
+/// The tangent planes at the vertices of a range of patches, four coefficients of two words each,
+/// all 0 where there is none; these are added to word 3 of `events`.
+///
+/// # Errors
+/// As [`Device::run`] and [`Device::empty`].
+pub fn planes(
+    device: &Device,
+    settings: &Settings,
+    placed: &Placed,
+    range: &Range<usize>,
+    [patches, vertices, events]: [&Buffer; 3],
+) -> Result<Buffer> {
+    let count = placed.vertices.items(range);
+    let planes = device.empty(8 * count)?;
+    let first = [0, placed.vertices.words[range.start]];
+    let own = placed.settings(settings, range, first).of(count);
+    let buffers = [patches, &placed.vertices.buffer, vertices, &planes, events];
+    device.run(Kernel::Normal, "planes", &own, &buffers)?;
+    Ok(planes)
 }
 
 /// The triangles of a range of patches, three words each: numbers of vertices within the patch.

@@ -1,0 +1,145 @@
+//! Back-face removal: verdicts of every method, and facets looked at, on every width.
+
+use crate::random::{self, Kind, Random};
+use crate::support;
+use rtl_model::backface::{self, Verdict};
+use rtl_model::patch::{Patch, View};
+use tessim::config::{BackfaceMethod, Config};
+use tessim::gpu::{PATCH, Settings, backface as on_device, push_patch};
+use tessim::study::check::Ledger;
+
+/// Patches, beside the common kinds, whose determinants are 0 or next to it.
+fn draw(random: &mut Random, width: u32) -> Patch {
+    let max = (1 << (width - 1)) - 1;
+    let kind = random.of(Kind::ALL);
+    let mut patch = random::patch(random, kind, max);
+    match random.integer(0, 9) {
+        // The ends of the range and their neighbours: the widest numbers.
+        0 => patch.points = patch.points.map(|p| p.map(|_| extreme(random, max))),
+        // Nearly edge-on: some points an ulp beside the plane of the viewer.
+        1 => {
+            let rare = random.integer(1, 8);
+            patch.points = patch.points.map(|[x, y, z, _]| {
+                let off = i64::from(random.integer(0, rare) == 0);
+                [x, y, z, ((x + y) / 2 + off).clamp(-max, max)]
+            });
+        }
+        // Round the viewer.
+        2 => {
+            let size = (max >> 2).max(1);
+            let at = |c: i64| (c % size).clamp(-max, max);
+            patch.points = patch.points.map(|p| p.map(at));
+            for k in 0..4 {
+                patch.points[5 * k] = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
+                    .map(|[x, y, w]| [x * size, y * size, 0, w * size])[k];
+            }
+        }
+        // A curve: no normal anywhere.
+        3 if random.bits() & 1 == 0 => {
+            let row = [0, 1, 2, 3].map(|k| patch.points[k]);
+            patch.points = std::array::from_fn(|k| row[k % 4]);
+        }
+        _ => {}
+    }
+    patch.saturated = random.integer(0, 15) == 0;
+    patch.cull = random.integer(0, 15) > 0;
+    patch
+}
+
+fn extreme(random: &mut Random, max: i64) -> i64 {
+    random.of([-max - 1, -max, 1 - max, -1, 0, 1, max - 1, max])
+}
+
+/// The words of a fate that was 2, or stays 0.
+fn fate(patch: &Patch, view: &View, method: BackfaceMethod) -> [u32; 3] {
+    let (verdict, facets) = backface::accept(patch, view, method);
+    [if verdict == Verdict::Culled { 1 } else { 2 }, (verdict != Verdict::Untested).into(), facets]
+}
+
+/// How often each outcome was seen.
+#[derive(Debug, Default)]
+struct Seen {
+    untested: u32,
+    culled: u32,
+    kept_early: u32,
+    kept_late: u32,
+}
+
+impl Seen {
+    fn add(&mut self, [fate, tested, facets]: [u32; 3]) {
+        let which = match (tested, fate, facets) {
+            (0, ..) => &mut self.untested,
+            (_, 1, _) => &mut self.culled,
+            (_, _, 0..=4) => &mut self.kept_early,
+            _ => &mut self.kept_late,
+        };
+        *which += 1;
+    }
+}
+
+fn compare(method: BackfaceMethod, what: &'static str, patches: usize) {
+    let Some(device) = support::device() else { return };
+    let mut ledger = Ledger::default();
+    let mut random = Random::new(73);
+    let mut seen = Seen::default();
+    for width in 8..=48 {
+        let view = View { facing: random.of([-1, 1]), ..support::view(width) };
+        let mut config = Config::default();
+        config.backface.method = method;
+        let inputs: Vec<_> =
+            (0..patches * support::effort()).map(|_| draw(&mut random, width)).collect();
+        let clipped: Vec<_> = inputs.iter().map(|_| random.integer(0, 15) == 0).collect();
+        let mut flat = Vec::with_capacity(PATCH * inputs.len());
+        inputs.iter().for_each(|patch| push_patch(&mut flat, patch, [0; 4], [0; 3]));
+        let fates: Vec<_> =
+            clipped.iter().flat_map(|&c| [if c { 0 } else { 2 }, 0, 0, 9]).collect();
+        let flat = device.upload(&flat).unwrap();
+        let fates = device.upload(&fates).unwrap();
+        let settings = Settings::new(&config, &view, view.position).of(inputs.len());
+        on_device(device, &settings, &flat, &fates).unwrap();
+        let got = device.read(&fates, 0, 4 * inputs.len()).unwrap();
+        for ((patch, &clipped), got) in inputs.iter().zip(&clipped).zip(got.chunks(4)) {
+            let want = if clipped { [0; 3] } else { fate(patch, &view, method) };
+            if !clipped {
+                seen.add(want);
+            }
+            ledger.compare(
+                ("backface", what),
+                &[&want[..], &[9]].concat(),
+                got,
+                || format!("{width} bits, facing {}", view.facing),
+                || format!("{patch:x?}"),
+            );
+        }
+    }
+    println!("{what}: {seen:?}");
+    support::settle(&ledger, 10_000);
+    let least = if method == BackfaceMethod::Off { 0 } else { 100 };
+    assert!(seen.untested >= 100, "{seen:?}");
+    assert!(seen.culled.min(seen.kept_early).min(seen.kept_late) >= least, "{seen:?}");
+}
+
+#[test]
+fn nothing_is_tested_where_the_method_is_off() {
+    compare(BackfaceMethod::Off, "off", 100);
+}
+
+#[test]
+fn net_facets_agree() {
+    compare(BackfaceMethod::NetFacets, "net_facets", 200);
+}
+
+#[test]
+fn tangent_planes_agree() {
+    compare(BackfaceMethod::TangentPlane, "tangent_plane", 200);
+}
+
+#[test]
+fn normal_cones_agree() {
+    compare(BackfaceMethod::NormalCone, "normal_cone", 200);
+}
+
+#[test]
+fn hulls_agree() {
+    compare(BackfaceMethod::HullLiteral, "hull_literal", 100);
+}
