@@ -22,10 +22,14 @@ pub enum Kernel {
     Level,
     /// Dyadic lists.
     Curve,
+    /// What the next three have in common; no entry.
+    Plan,
     /// Parameters.
     Place,
     /// Points.
     Evaluate,
+    /// Tangent planes.
+    Normal,
     /// Triangles.
     Stitch,
     /// Screen positions.
@@ -44,7 +48,7 @@ const SHARED: [(&str, &str); 2] = [
 
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
@@ -53,8 +57,10 @@ impl Kernel {
         Self::BackfaceCone,
         Self::Level,
         Self::Curve,
+        Self::Plan,
         Self::Place,
         Self::Evaluate,
+        Self::Normal,
         Self::Stitch,
         Self::Emit,
         Self::D3d11,
@@ -72,6 +78,7 @@ impl Kernel {
         match self {
             Self::BackfaceHull | Self::BackfaceCone => Some(Self::Backface),
             Self::Curve => Some(Self::Level),
+            Self::Place | Self::Evaluate | Self::Stitch => Some(Self::Plan),
             _ => None,
         }
     }
@@ -86,8 +93,10 @@ impl Kernel {
             Self::BackfaceCone => ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
             Self::Level => ("level.wgsl", include_str!("level.wgsl")),
             Self::Curve => ("level_curve.wgsl", include_str!("level_curve.wgsl")),
+            Self::Plan => ("plan.wgsl", include_str!("plan.wgsl")),
             Self::Place => ("place.wgsl", include_str!("place.wgsl")),
             Self::Evaluate => ("evaluate.wgsl", include_str!("evaluate.wgsl")),
+            Self::Normal => ("normal.wgsl", include_str!("normal.wgsl")),
             Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),
             Self::Emit => ("emit.wgsl", include_str!("emit.wgsl")),
             Self::D3d11 => ("d3d11.wgsl", include_str!("d3d11.wgsl")),

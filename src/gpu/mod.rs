@@ -12,6 +12,7 @@ mod level;
 mod made;
 mod record;
 mod settings;
+pub mod surface;
 
 pub use backface::backface;
 pub use device::{Backend, Buffer, Device};

@@ -228,6 +228,37 @@ fn bits128(a: I128) -> u32 {
     return select(bits64(a.xy), 64u + bits64(a.zw), !is_zero64(a.zw));
 }
 
+// The number of the k-th bit that is set, from the lowest one, which is the 0th; there is one.
+fn select128(mask: I128, k: u32) -> u32 {
+    var left = k;
+    var word_number = 0u;
+    while (word_number < 3u && left >= countOneBits(mask[word_number])) {
+        left -= countOneBits(mask[word_number]);
+        word_number += 1u;
+    }
+    var part = mask[word_number];
+    var at = 32u * word_number;
+    for (var half = 16u; half > 0u; half /= 2u) {
+        let below = countOneBits(part & ((1u << half) - 1u));
+        if (left >= below) {
+            left -= below;
+            part >>= half;
+            at += half;
+        }
+    }
+    return at;
+}
+
+// How many of the n lowest bits are set, n from 0 to 128.
+fn count_below128(mask: I128, n: u32) -> u32 {
+    var sum = 0u;
+    for (var k = 0u; k < 4u; k += 1u) {
+        let bits = clamp(n, 32u * k, 32u * k + 32u) - 32u * k;
+        sum += countOneBits(extractBits(mask[k], 0u, bits));
+    }
+    return sum;
+}
+
 // ---- 256 bits
 
 fn wide128(a: I128) -> I256 {

@@ -41,6 +41,8 @@ fn operation(a: I256, b: I256) -> I256 {
         case 23u: { return flag(is_positive128(a.lo)); }
         case 24u: { return flag(is_positive256(a)); }
         case 25u: { return mul_mixed(a.lo.xy, b.lo); }
+        case 26u: { return wide128(wide(I64(select128(a.lo, n), 0u))); }
+        case 27u: { return wide128(wide(I64(count_below128(a.lo, n), 0u))); }
         default: { return a; }
     }
 }

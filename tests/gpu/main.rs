@@ -8,20 +8,32 @@
 #[cfg(feature = "gpu")]
 mod backface;
 #[cfg(feature = "gpu")]
+mod batch;
+#[cfg(feature = "gpu")]
 mod clip;
+#[cfg(feature = "gpu")]
+mod emit;
+#[cfg(feature = "gpu")]
+mod evaluate;
 #[cfg(feature = "gpu")]
 mod level;
 #[cfg(feature = "gpu")]
 mod mutants;
 #[cfg(feature = "gpu")]
 mod number;
+#[cfg(feature = "gpu")]
+mod place;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]
 mod random;
 #[cfg(feature = "gpu")]
 mod records;
 #[cfg(feature = "gpu")]
+mod stitch;
+#[cfg(feature = "gpu")]
 mod support;
+#[cfg(feature = "gpu")]
+mod surface;
 
 #[cfg(not(feature = "gpu"))]
 #[test]

@@ -19,6 +19,8 @@ enum Operands {
     Shift(u32, u32),
     Positive,
     Root,
+    /// A mask of 128 bits that has a bit set, and the number of such a bit among them.
+    SetBit,
 }
 
 struct Operation {
@@ -77,7 +79,7 @@ fn rounded(mode: Rounding, work: impl Modal<Output = i128>) -> I256 {
 use Operands::{Any64, Any128, Any256, Positive, Root};
 
 #[rustfmt::skip]
-const OPERATIONS: [Operation; 26] = [
+const OPERATIONS: [Operation; 28] = [
     Operation { name: "add64", operands: Any64, result: |a, b, _| low(a).wrapping_add(low(b)).into() },
     Operation { name: "sub64", operands: Any64, result: |a, b, _| low(a).wrapping_sub(low(b)).into() },
     Operation { name: "mul64", operands: Any64, result: |a, b, _| low(a).wrapping_mul(low(b)).into() },
@@ -107,6 +109,11 @@ const OPERATIONS: [Operation; 26] = [
     Operation { name: "is_positive128", operands: Any128, result: |a, _, _| flag(a.as_i128() > 0) },
     Operation { name: "is_positive256", operands: Any256, result: |a, _, _| flag(a > 0) },
     Operation { name: "mul_mixed", operands: Any128, result: |a, b, _| I256::from(low(a)) * b },
+    Operation { name: "select128", operands: Operands::SetBit, result: |a, b, _| set_bit(a, b.as_u32()).into() },
+    Operation { name: "count_below128", operands: Operands::Shift(128, 129), result: |a, b, _| {
+        let below = (U256::ONE << b.as_u32()) - 1;
+        (a.as_u256() & below).count_ones().into()
+    } },
 ];
 
 /// A signed integer of up to so many bits: of any length, or near a power of two, or a word's end.
@@ -146,6 +153,12 @@ fn operands(random: &mut Random, kind: Operands) -> (I256, I256) {
                 _ => (many, divisor),
             }
         }
+        Operands::SetBit => {
+            let mask = draw(random, 128);
+            let mask = if mask == 0 { I256::ONE } else { mask };
+            let bits = mask.as_u128().count_ones();
+            (mask, random.integer(0, bits - 1).into())
+        }
         Root => {
             let root = draw(random, 62).abs();
             let off = I256::from(i64::from(random.integer(0, 2)) - 1);
@@ -153,6 +166,12 @@ fn operands(random: &mut Random, kind: Operands) -> (I256, I256) {
             (square.abs(), I256::ZERO)
         }
     }
+}
+
+/// The number of set bit `k` of the low 128, by asking each of them.
+fn set_bit(mask: I256, k: u32) -> u32 {
+    let set = |&bit: &u32| mask.as_u128() >> bit & 1 != 0;
+    (0..128).filter(set).nth(k as usize).expect("as many bits are set")
 }
 
 fn words(value: I256) -> [u32; 8] {
