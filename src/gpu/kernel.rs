@@ -24,8 +24,20 @@ pub enum Kernel {
     Stitch,
     /// Screen positions.
     Emit,
-    /// The fixed-function tessellator.
+    /// The fixed-function tessellator: its factors.
     D3d11,
+    /// Its points.
+    D3d11Points,
+    /// Its primitives.
+    D3d11Connect,
+    /// The hull shader.
+    D3d11Hull,
+    /// The domain shader.
+    D3d11Domain,
+    /// What both and the tessellator did.
+    D3d11Count,
+    /// Singles made of integers, for comparisons.
+    Single,
     /// The surface-level shader.
     Esc,
 }
@@ -36,9 +48,15 @@ const SHARED: [(&str, &str); 2] = [
     ("settings.wgsl", include_str!("settings.wgsl")),
 ];
 
+/// The texts that some kernels share, behind those of all.
+const LIBRARIES: [(&str, &str); 2] = [
+    ("single.wgsl", include_str!("single.wgsl")),
+    ("d3d11_rings.wgsl", include_str!("d3d11_rings.wgsl")),
+];
+
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 17] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
@@ -49,6 +67,12 @@ impl Kernel {
         Self::Stitch,
         Self::Emit,
         Self::D3d11,
+        Self::D3d11Points,
+        Self::D3d11Connect,
+        Self::D3d11Hull,
+        Self::D3d11Domain,
+        Self::D3d11Count,
+        Self::Single,
         Self::Esc,
     ];
 
@@ -56,6 +80,16 @@ impl Kernel {
     #[must_use]
     pub const fn file(self) -> &'static str {
         self.embedded().0
+    }
+
+    /// The libraries that stand before it.
+    const fn libraries(self) -> &'static [(&'static str, &'static str)] {
+        let [single, rings] = &LIBRARIES;
+        match self {
+            Self::D3d11 | Self::D3d11Points | Self::D3d11Connect => std::slice::from_ref(rings),
+            Self::D3d11Hull | Self::D3d11Domain | Self::Single => std::slice::from_ref(single),
+            _ => &[],
+        }
     }
 
     const fn embedded(self) -> (&'static str, &'static str) {
@@ -70,6 +104,12 @@ impl Kernel {
             Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),
             Self::Emit => ("emit.wgsl", include_str!("emit.wgsl")),
             Self::D3d11 => ("d3d11.wgsl", include_str!("d3d11.wgsl")),
+            Self::D3d11Points => ("d3d11_points.wgsl", include_str!("d3d11_points.wgsl")),
+            Self::D3d11Connect => ("d3d11_connect.wgsl", include_str!("d3d11_connect.wgsl")),
+            Self::D3d11Hull => ("d3d11_hull.wgsl", include_str!("d3d11_hull.wgsl")),
+            Self::D3d11Domain => ("d3d11_domain.wgsl", include_str!("d3d11_domain.wgsl")),
+            Self::D3d11Count => ("d3d11_count.wgsl", include_str!("d3d11_count.wgsl")),
+            Self::Single => ("single_operations.wgsl", include_str!("single_operations.wgsl")),
             Self::Esc => ("esc.wgsl", include_str!("esc.wgsl")),
         }
     }
@@ -85,13 +125,14 @@ pub struct Sources {
 impl Sources {
     /// The names of all files.
     pub fn files() -> impl Iterator<Item = &'static str> {
-        SHARED.iter().map(|(name, _)| *name).chain(Kernel::ALL.map(Kernel::file))
+        let libraries = SHARED.iter().chain(&LIBRARIES).map(|(name, _)| *name);
+        libraries.chain(Kernel::ALL.map(Kernel::file))
     }
 
     /// The shipped text of a file.
     #[must_use]
     pub fn shipped(file: &str) -> Option<&'static str> {
-        let all = SHARED.into_iter().chain(Kernel::ALL.map(Kernel::embedded));
+        let all = SHARED.into_iter().chain(LIBRARIES).chain(Kernel::ALL.map(Kernel::embedded));
         all.into_iter().find(|(name, _)| *name == file).map(|(_, text)| text)
     }
 
@@ -124,8 +165,8 @@ impl Sources {
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let (name, text) = kernel.embedded();
-        let shared = SHARED.map(|(name, text)| self.of(name, text));
-        [shared[0], shared[1], self.of(name, text)].join("\n")
+        let own = kernel.embedded();
+        let all = SHARED.iter().chain(kernel.libraries()).chain([&own]);
+        all.map(|(name, text)| self.of(name, text)).collect::<Vec<_>>().join("\n")
     }
 }

@@ -5,6 +5,7 @@
 //! nothing with that but the words of patches and settings, so what both say is not one mistake
 //! made once. Kernels have integers only, of 32 bits ([`Sources`]): they run wherever WebGPU does.
 
+pub mod d3d11;
 mod device;
 mod kernel;
 mod made;

@@ -8,10 +8,14 @@
 #[cfg(feature = "gpu")]
 mod clip;
 #[cfg(feature = "gpu")]
+mod d3d11;
+#[cfg(feature = "gpu")]
 mod number;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]
 mod random;
+#[cfg(feature = "gpu")]
+mod single;
 #[cfg(feature = "gpu")]
 mod support;
 
