@@ -123,23 +123,23 @@ fn process(
     if (item >= settings.items) {
         return;
     }
-    let from = item * FACTORS;
+    let begin = item * FACTORS;
     let at = item * PATTERN;
     for (var k = 0u; k < PATTERN; k += 1u) {
         processed[at + k] = 0u;
     }
     let edges = edges_of(settings.a);
     let count = factors_of(settings.a);
-    if (any_culls(from, edges)) {
+    if (any_culls(begin, edges)) {
         return;
     }
-    let inside = inside_least(from, count);
+    let inside = inside_least(begin, count);
     let outside = select(ONE_BITS, TWO_BITS, settings.b == EVEN);
     for (var k = 0u; k < count; k += 1u) {
         let partitioning = partitioning_of(k);
         let least = select(inside, outside, k < edges);
         processed[at + VALUE + k] =
-            convert(partitioning, select(least, ONE_BITS, partitioning == 0u), factors[from + k]);
+            convert(partitioning, select(least, ONE_BITS, partitioning == 0u), factors[begin + k]);
     }
     write_pattern(at, count, edges);
 }

@@ -63,8 +63,8 @@ fn reach(
 @group(0) @binding(3) var<storage, read_write> weights: array<u32>;
 @group(0) @binding(4) var<storage, read_write> inserted: array<u32>;
 
-fn ratio(n: u32, of: u32) -> u32 {
-    return quotient(single_of(I64(n, 0u), 0), single_of(I64(of, 0u), 0));
+fn ratio(n: u32, whole: u32) -> u32 {
+    return quotient(single_of(I64(n, 0u), 0), single_of(I64(whole, 0u), 0));
 }
 
 // Both ends' parameters from integers, so that an edge is the same from either.
@@ -79,9 +79,9 @@ fn candidates(
     }
     let cell = settings.c + 1u;
     for (var end = 0u; end < 2u; end += 1u) {
-        let from = select(k, 3u * cell - k, end == 1u);
-        let u = ratio(from, 3u * cell);
-        let w = ratio(3u * cell - from, 3u * cell);
+        let place = select(k, 3u * cell - k, end == 1u);
+        let u = ratio(place, 3u * cell);
+        let w = ratio(3u * cell - place, 3u * cell);
         let ww = multiply(w, w);
         table[k * CANDIDATE + 3u * end] = multiply(ww, w);
         table[k * CANDIDATE + 1u + end] = multiply(THREE_SINGLE, multiply(u, ww));
