@@ -28,7 +28,7 @@ const FACTORS = 6u;
 const SEGMENTS = 8u;
 
 // A row's words from here on.
-const ROW = 28u;
+const ROW = 30u;
 const PARAMETERS = 13u;
 const POINTS = 14u;
 const NON_MONOTONE = 15u;
@@ -42,6 +42,8 @@ const ATTRIBUTES = 24u;
 const COMPONENTS = 25u;
 const BYTES = 26u;
 const BURSTS = 27u;
+const WRITTEN = 28u;
+const WRITTEN_BURSTS = 29u;
 
 fn patch_of(item: u32) -> u32 {
     var low = 0u;
@@ -181,6 +183,13 @@ fn cache(
         return;
     }
     let number = settings.first + item;
+    let at = number * ROW;
+    let components = of_patch[2u * number];
+    let bytes = of_patch[2u * number + 1u];
+    let bursts = (bytes + settings.o - 1u) / settings.o;
+    // The hull shader hands on what is culled, too.
+    atomicStore(&rows[at + WRITTEN], bytes);
+    atomicStore(&rows[at + WRITTEN_BURSTS], bursts);
     let points = point_starts[number + 1u] - point_starts[number];
     if (points == 0u) {
         return;
@@ -192,9 +201,6 @@ fn cache(
     for (var k = 0u; k < FACTORS; k += 1u) {
         parameters += patterns[number * PATTERN + SEGMENTS + k] + 1u;
     }
-    let at = number * ROW;
-    let components = of_patch[2u * number];
-    let bytes = of_patch[2u * number + 1u];
     atomicStore(&rows[at + PARAMETERS], parameters);
     atomicStore(&rows[at + POINTS], points);
     atomicStore(&rows[at + TRIANGLES], starts[number + 1u] - starts[number]);
@@ -203,5 +209,5 @@ fn cache(
     atomicStore(&rows[at + ATTRIBUTES], shaded * components);
     atomicStore(&rows[at + COMPONENTS], components);
     atomicStore(&rows[at + BYTES], bytes);
-    atomicStore(&rows[at + BURSTS], (bytes + settings.o - 1u) / settings.o);
+    atomicStore(&rows[at + BURSTS], bursts);
 }

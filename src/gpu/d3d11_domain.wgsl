@@ -21,7 +21,7 @@ const ONE = 0x10000u;
 const NET = 128u;
 
 // Words of the counts of a patch, and those that are counted here.
-const ROW = 28u;
+const ROW = 30u;
 const OVERFLOWS = 22u;
 const CRACKS = 23u;
 

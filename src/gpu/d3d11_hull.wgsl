@@ -28,7 +28,7 @@ const LEVELS = 12u;
 const CLAMPED = 6u;
 
 // What is counted of a patch, in the order of its row.
-const ROW = 28u;
+const ROW = 30u;
 
 // ---- bounds
 

@@ -4,8 +4,8 @@
 use crate::random::Random;
 use crate::support;
 use rtl_model::d3d11::{self as cpu, Partitioning, Tessellator};
-use tessim::gpu::Device;
 use tessim::gpu::d3d11::{Domain, FACTORS, Output, Tessellation, patterns};
+use tessim::gpu::{Backend, Device, Sources};
 use tessim::study::check::Ledger;
 
 const DOMAINS: [(Domain, cpu::Domain); 3] = [
@@ -99,4 +99,46 @@ fn patterns_agree_in_every_domain_partitioning_and_output() {
         compare(&mut ledger, device, &factors, partitioning);
     }
     support::settle(&ledger, 1_000_000);
+}
+
+#[test]
+fn patterns_agree_for_every_count_of_segments() {
+    let Some(device) = support::device() else { return };
+    let mut ledger = Ledger::default();
+    let mut factors = Vec::new();
+    for a in 1..=64 {
+        for b in [1, 2, 3, a, 65 - a, 64] {
+            let all: [i32; FACTORS] = [b, a, 65 - a, (a * b) % 64 + 1, a, b];
+            factors.extend(all.map(|n| (n as f32).to_bits()));
+        }
+    }
+    compare(&mut ledger, device, &factors, Partitioning::Integer);
+    support::settle(&ledger, 1_000_000);
+}
+
+#[test]
+fn patterns_are_the_same_where_buffers_are_small() {
+    let Some(device) = support::device() else { return };
+    let mut small = Device::open(Backend::Auto, Sources::default()).unwrap();
+    small.limit_words(30_000); // a pattern of 4225 points has 24576 numbers
+    let mut random = Random::new(1106);
+    let factors: Vec<u32> = (0..3000).flat_map(|_| draw(&mut random)).collect();
+    for output in [Output::Line, Output::Clockwise] {
+        let tessellation =
+            Tessellation { domain: Domain::Quad, partitioning: Partitioning::Odd, output };
+        let want = patterns(device, tessellation, &factors).unwrap();
+        assert_eq!(patterns(&small, tessellation, &factors).unwrap(), want);
+    }
+}
+
+#[test]
+fn an_isoline_domain_has_no_triangles() {
+    let Some(device) = support::device() else { return };
+    let tessellation = Tessellation {
+        domain: Domain::Isoline,
+        partitioning: Partitioning::Integer,
+        output: Output::Clockwise,
+    };
+    let error = patterns(device, tessellation, &[1; FACTORS]).expect_err("no triangles");
+    assert!(error.to_string().contains("isoline"), "{error}");
 }

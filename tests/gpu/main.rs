@@ -10,6 +10,8 @@ mod clip;
 #[cfg(feature = "gpu")]
 mod d3d11;
 #[cfg(feature = "gpu")]
+mod d3d11_unit;
+#[cfg(feature = "gpu")]
 mod number;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]
@@ -18,6 +20,10 @@ mod random;
 mod single;
 #[cfg(feature = "gpu")]
 mod support;
+#[allow(dead_code, reason = "other tests use the rest")]
+#[cfg(feature = "gpu")]
+#[path = "../support/walk.rs"]
+mod walk;
 
 #[cfg(not(feature = "gpu"))]
 #[test]
