@@ -1,29 +1,27 @@
-//! The kernels' texts: one WGSL file a block, behind two that all of them share.
+//! The kernels' texts: WGSL files, of which a kernel has some, behind two that all of them share.
 
 use crate::error::{Error, Result};
 use std::path::Path;
 
-/// A block's kernel.
+/// A block's kernel, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kernel {
-    /// Sums over patches.
-    Scan,
     /// The integers themselves, for comparisons.
     Number,
+    /// Sums over patches.
+    Scan,
     /// Trivial clipping.
     Clip,
-    /// Back-face removal.
+    /// Back-face removal: by tangent planes and by facets.
     Backface,
-    /// The same by the hull's facets.
+    /// By the convex hull.
     BackfaceHull,
-    /// The same by cones.
+    /// By cones.
     BackfaceCone,
     /// Levels.
     Level,
-    /// Dyadic lists.
+    /// Dyadic lists, by curves that are divided.
     Curve,
-    /// What the next three have in common; no entry.
-    Plan,
     /// Parameters.
     Place,
     /// Points.
@@ -34,74 +32,101 @@ pub enum Kernel {
     Stitch,
     /// Screen positions.
     Emit,
-    /// The fixed-function tessellator.
+    /// The fixed-function tessellator: its factors.
     D3d11,
-    /// The surface-level shader.
+    /// Its points.
+    D3d11Points,
+    /// Its primitives.
+    D3d11Connect,
+    /// The hull shader.
+    D3d11Hull,
+    /// The domain shader.
+    D3d11Domain,
+    /// What both and the tessellator did.
+    D3d11Count,
+    /// Singles made of integers, one operation at a time, for comparisons.
+    Single,
+    /// Levels of resolution of the surface-level shader.
+    EscLevel,
+    /// Its tests.
     Esc,
+    /// Its points and strips.
+    EscMesh,
 }
 
-/// The two texts that stand before every kernel.
-const SHARED: [(&str, &str); 2] = [
+/// All texts, by their names in `src/gpu`.
+const TEXTS: &[(&str, &str)] = &[
     ("number.wgsl", include_str!("number.wgsl")),
     ("settings.wgsl", include_str!("settings.wgsl")),
+    ("operations.wgsl", include_str!("operations.wgsl")),
+    ("scan.wgsl", include_str!("scan.wgsl")),
+    ("clip.wgsl", include_str!("clip.wgsl")),
+    ("backface.wgsl", include_str!("backface.wgsl")),
+    ("backface_hull.wgsl", include_str!("backface_hull.wgsl")),
+    ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
+    ("level.wgsl", include_str!("level.wgsl")),
+    ("level_curve.wgsl", include_str!("level_curve.wgsl")),
+    ("plan.wgsl", include_str!("plan.wgsl")),
+    ("place.wgsl", include_str!("place.wgsl")),
+    ("evaluate.wgsl", include_str!("evaluate.wgsl")),
+    ("normal.wgsl", include_str!("normal.wgsl")),
+    ("stitch.wgsl", include_str!("stitch.wgsl")),
+    ("emit.wgsl", include_str!("emit.wgsl")),
+    ("d3d11_rings.wgsl", include_str!("d3d11_rings.wgsl")),
+    ("d3d11.wgsl", include_str!("d3d11.wgsl")),
+    ("d3d11_points.wgsl", include_str!("d3d11_points.wgsl")),
+    ("d3d11_connect.wgsl", include_str!("d3d11_connect.wgsl")),
+    ("d3d11_count.wgsl", include_str!("d3d11_count.wgsl")),
+    ("single.wgsl", include_str!("single.wgsl")),
+    ("single_operations.wgsl", include_str!("single_operations.wgsl")),
+    ("d3d11_hull.wgsl", include_str!("d3d11_hull.wgsl")),
+    ("d3d11_domain.wgsl", include_str!("d3d11_domain.wgsl")),
+    ("esc_pattern.wgsl", include_str!("esc_pattern.wgsl")),
+    ("esc_level.wgsl", include_str!("esc_level.wgsl")),
+    ("esc.wgsl", include_str!("esc.wgsl")),
+    ("esc_strip.wgsl", include_str!("esc_strip.wgsl")),
+    ("esc_count.wgsl", include_str!("esc_count.wgsl")),
+    ("esc_mesh.wgsl", include_str!("esc_mesh.wgsl")),
 ];
 
-impl Kernel {
-    /// All of them, in the order of the data.
-    pub const ALL: [Self; 16] = [
-        Self::Number,
-        Self::Scan,
-        Self::Clip,
-        Self::Backface,
-        Self::BackfaceHull,
-        Self::BackfaceCone,
-        Self::Level,
-        Self::Curve,
-        Self::Plan,
-        Self::Place,
-        Self::Evaluate,
-        Self::Normal,
-        Self::Stitch,
-        Self::Emit,
-        Self::D3d11,
-        Self::Esc,
-    ];
+/// The texts that stand before every kernel's own.
+const SHARED: &[&str] = &["number.wgsl", "settings.wgsl"];
 
-    /// The name of its file in `src/gpu`.
+impl Kernel {
+    /// The names of its own texts, in order; the last one has its entries.
+    const fn own(self) -> &'static [&'static str] {
+        match self {
+            Self::Number => &["operations.wgsl"],
+            Self::Scan => &["scan.wgsl"],
+            Self::Clip => &["clip.wgsl"],
+            Self::Backface => &["backface.wgsl"],
+            Self::BackfaceHull => &["backface.wgsl", "backface_hull.wgsl"],
+            Self::BackfaceCone => &["backface.wgsl", "backface_cone.wgsl"],
+            Self::Level => &["level.wgsl"],
+            Self::Curve => &["level.wgsl", "level_curve.wgsl"],
+            Self::Place => &["plan.wgsl", "place.wgsl"],
+            Self::Evaluate => &["plan.wgsl", "evaluate.wgsl"],
+            Self::Normal => &["normal.wgsl"],
+            Self::Stitch => &["plan.wgsl", "stitch.wgsl"],
+            Self::Emit => &["emit.wgsl"],
+            Self::D3d11 => &["d3d11_rings.wgsl", "d3d11.wgsl"],
+            Self::D3d11Points => &["d3d11_rings.wgsl", "d3d11_points.wgsl"],
+            Self::D3d11Connect => &["d3d11_rings.wgsl", "d3d11_connect.wgsl"],
+            Self::D3d11Hull => &["single.wgsl", "d3d11_hull.wgsl"],
+            Self::D3d11Domain => &["single.wgsl", "d3d11_domain.wgsl"],
+            Self::D3d11Count => &["d3d11_count.wgsl"],
+            Self::Single => &["single.wgsl", "single_operations.wgsl"],
+            Self::EscLevel => &["esc_pattern.wgsl", "esc_level.wgsl"],
+            Self::Esc => &["esc_pattern.wgsl", "esc.wgsl"],
+            Self::EscMesh => &["esc_pattern.wgsl", "esc_strip.wgsl", "esc_count.wgsl", "esc_mesh.wgsl"],
+        }
+    }
+
+    /// The name of the file that has its entries.
     #[must_use]
     pub const fn file(self) -> &'static str {
-        self.embedded().0
-    }
-
-    /// The kernel whose text stands before this one's.
-    const fn base(self) -> Option<Self> {
-        match self {
-            Self::BackfaceHull | Self::BackfaceCone => Some(Self::Backface),
-            Self::Curve => Some(Self::Level),
-            Self::Place | Self::Evaluate | Self::Stitch => Some(Self::Plan),
-            _ => None,
-        }
-    }
-
-    const fn embedded(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Number => ("operations.wgsl", include_str!("operations.wgsl")),
-            Self::Scan => ("scan.wgsl", include_str!("scan.wgsl")),
-            Self::Clip => ("clip.wgsl", include_str!("clip.wgsl")),
-            Self::Backface => ("backface.wgsl", include_str!("backface.wgsl")),
-            Self::BackfaceHull => ("backface_hull.wgsl", include_str!("backface_hull.wgsl")),
-            Self::BackfaceCone => ("backface_cone.wgsl", include_str!("backface_cone.wgsl")),
-            Self::Level => ("level.wgsl", include_str!("level.wgsl")),
-            Self::Curve => ("level_curve.wgsl", include_str!("level_curve.wgsl")),
-            Self::Plan => ("plan.wgsl", include_str!("plan.wgsl")),
-            Self::Place => ("place.wgsl", include_str!("place.wgsl")),
-            Self::Evaluate => ("evaluate.wgsl", include_str!("evaluate.wgsl")),
-            Self::Normal => ("normal.wgsl", include_str!("normal.wgsl")),
-            Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),
-            Self::Emit => ("emit.wgsl", include_str!("emit.wgsl")),
-            Self::D3d11 => ("d3d11.wgsl", include_str!("d3d11.wgsl")),
-            Self::Esc => ("esc.wgsl", include_str!("esc.wgsl")),
-        }
+        let own = self.own();
+        own[own.len() - 1]
     }
 }
 
@@ -115,14 +140,13 @@ pub struct Sources {
 impl Sources {
     /// The names of all files.
     pub fn files() -> impl Iterator<Item = &'static str> {
-        SHARED.iter().map(|(name, _)| *name).chain(Kernel::ALL.map(Kernel::file))
+        TEXTS.iter().map(|&(name, _)| name)
     }
 
     /// The shipped text of a file.
     #[must_use]
     pub fn shipped(file: &str) -> Option<&'static str> {
-        let all = SHARED.into_iter().chain(Kernel::ALL.map(Kernel::embedded));
-        all.into_iter().find(|(name, _)| *name == file).map(|(_, text)| text)
+        TEXTS.iter().find(|(name, _)| *name == file).map(|&(_, text)| text)
     }
 
     /// The same, but for one file.
@@ -148,19 +172,36 @@ impl Sources {
         Ok(sources)
     }
 
-    fn of(&self, file: &'static str, text: &'static str) -> &str {
-        self.replaced.iter().find(|(name, _)| name == file).map_or(text, |(_, text)| text)
-    }
-
-    /// The files that make a kernel, in order.
+    /// The names of the files that make a kernel, in order.
     pub(super) fn parts(kernel: Kernel) -> Vec<&'static str> {
-        SHARED.map(|(name, _)| name).into_iter().chain([kernel.file()]).collect()
+        [SHARED, kernel.own()].concat()
     }
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let own = kernel.base().into_iter().chain([kernel]).map(Kernel::embedded);
-        let texts = SHARED.into_iter().chain(own).map(|(name, text)| self.of(name, text));
-        texts.collect::<Vec<_>>().join("\n")
+        let of = |file: &'static str| {
+            let replaced = self.replaced.iter().find(|(name, _)| name == file);
+            let shipped = || Self::shipped(file).expect("a kernel's files are all listed");
+            replaced.map_or_else(shipped, |(_, text)| text)
+        };
+        Self::parts(kernel).into_iter().map(of).collect::<Vec<_>>().join("\n")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_is_a_part_of_some_kernel_and_is_where_it_says() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/gpu");
+        let read = Sources::from_folder(&folder).expect("every file is there");
+        assert_eq!(read.replaced.len(), TEXTS.len());
+        for (name, text) in &read.replaced {
+            assert_eq!(Some(&text[..]), Sources::shipped(name));
+        }
+        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let kernels = files.filter(|path| path.extension().is_some_and(|e| e == "wgsl"));
+        assert_eq!(kernels.count(), TEXTS.len());
     }
 }

@@ -6,9 +6,11 @@
 //! made once. Kernels have integers only, of 32 bits ([`Sources`]): they run wherever WebGPU does.
 
 mod backface;
+pub mod d3d11;
 mod device;
+pub mod esc;
 mod kernel;
-mod level;
+pub mod level;
 mod made;
 mod record;
 mod settings;
@@ -17,7 +19,6 @@ pub mod surface;
 pub use backface::backface;
 pub use device::{Backend, Buffer, Device};
 pub use kernel::{Kernel, Sources};
-pub use level::{LEVELS, LISTS, level, subdivide};
 pub use made::{Made, Name};
 pub use record::Dispatch;
 pub use settings::{PATCH, Settings, State, VERTEX, integer, push_patch, rounding, words};

@@ -12,6 +12,10 @@ mod batch;
 #[cfg(feature = "gpu")]
 mod clip;
 #[cfg(feature = "gpu")]
+mod d3d11;
+#[cfg(feature = "gpu")]
+mod d3d11_unit;
+#[cfg(feature = "gpu")]
 mod emit;
 #[cfg(feature = "gpu")]
 mod evaluate;
@@ -29,11 +33,17 @@ mod random;
 #[cfg(feature = "gpu")]
 mod records;
 #[cfg(feature = "gpu")]
+mod single;
+#[cfg(feature = "gpu")]
 mod stitch;
 #[cfg(feature = "gpu")]
 mod support;
 #[cfg(feature = "gpu")]
 mod surface;
+#[cfg(feature = "gpu")]
+#[allow(dead_code, reason = "other tests use the rest")]
+#[path = "../support/walk.rs"]
+mod walk;
 
 #[cfg(not(feature = "gpu"))]
 #[test]
