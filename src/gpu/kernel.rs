@@ -26,8 +26,12 @@ pub enum Kernel {
     Emit,
     /// The fixed-function tessellator.
     D3d11,
-    /// The surface-level shader.
+    /// The surface-level shader's levels of resolution.
+    EscLevel,
+    /// Its samples and tests.
     Esc,
+    /// Its strips, and what it costs.
+    EscMesh,
 }
 
 /// The two texts that stand before every kernel.
@@ -36,9 +40,15 @@ const SHARED: [(&str, &str); 2] = [
     ("settings.wgsl", include_str!("settings.wgsl")),
 ];
 
+/// What stands between those and the texts of the surface-level shader.
+const PATTERN: (&str, &str) = ("esc_pattern.wgsl", include_str!("esc_pattern.wgsl"));
+const STRIP: (&str, &str) = ("esc_strip.wgsl", include_str!("esc_strip.wgsl"));
+/// And behind one of them.
+const COUNT: (&str, &str) = ("esc_count.wgsl", include_str!("esc_count.wgsl"));
+
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
@@ -49,7 +59,9 @@ impl Kernel {
         Self::Stitch,
         Self::Emit,
         Self::D3d11,
+        Self::EscLevel,
         Self::Esc,
+        Self::EscMesh,
     ];
 
     /// The name of its file in `src/gpu`.
@@ -70,7 +82,18 @@ impl Kernel {
             Self::Stitch => ("stitch.wgsl", include_str!("stitch.wgsl")),
             Self::Emit => ("emit.wgsl", include_str!("emit.wgsl")),
             Self::D3d11 => ("d3d11.wgsl", include_str!("d3d11.wgsl")),
+            Self::EscLevel => ("esc_level.wgsl", include_str!("esc_level.wgsl")),
             Self::Esc => ("esc.wgsl", include_str!("esc.wgsl")),
+            Self::EscMesh => ("esc_mesh.wgsl", include_str!("esc_mesh.wgsl")),
+        }
+    }
+
+    /// The texts besides its own that only some kernels have.
+    const fn parts(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::EscLevel | Self::Esc => &[PATTERN],
+            Self::EscMesh => &[PATTERN, STRIP, COUNT],
+            _ => &[],
         }
     }
 }
@@ -85,14 +108,18 @@ pub struct Sources {
 impl Sources {
     /// The names of all files.
     pub fn files() -> impl Iterator<Item = &'static str> {
-        SHARED.iter().map(|(name, _)| *name).chain(Kernel::ALL.map(Kernel::file))
+        Self::all().map(|(name, _)| name)
+    }
+
+    fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+        let some = [PATTERN, STRIP, COUNT];
+        SHARED.into_iter().chain(some).chain(Kernel::ALL.map(Kernel::embedded))
     }
 
     /// The shipped text of a file.
     #[must_use]
     pub fn shipped(file: &str) -> Option<&'static str> {
-        let all = SHARED.into_iter().chain(Kernel::ALL.map(Kernel::embedded));
-        all.into_iter().find(|(name, _)| *name == file).map(|(_, text)| text)
+        Self::all().find(|(name, _)| *name == file).map(|(_, text)| text)
     }
 
     /// The same, but for one file.
@@ -124,8 +151,8 @@ impl Sources {
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let (name, text) = kernel.embedded();
-        let shared = SHARED.map(|(name, text)| self.of(name, text));
-        [shared[0], shared[1], self.of(name, text)].join("\n")
+        let parts = SHARED.iter().chain(kernel.parts()).copied().chain([kernel.embedded()]);
+        let texts: Vec<&str> = parts.map(|(name, text)| self.of(name, text)).collect();
+        texts.join("\n")
     }
 }

@@ -6,11 +6,13 @@
 //! made once. Kernels have integers only, of 32 bits ([`Sources`]): they run wherever WebGPU does.
 
 mod device;
+mod esc;
 mod kernel;
 mod made;
 mod settings;
 
 pub use device::{Backend, Buffer, Device};
+pub use esc::{Decided, Esc, decide, esc};
 pub use kernel::{Kernel, Sources};
 pub use made::{Made, Name};
 pub use settings::{PATCH, Settings, State, VERTEX, integer, push_patch, rounding, words};

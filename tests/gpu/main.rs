@@ -8,6 +8,8 @@
 #[cfg(feature = "gpu")]
 mod clip;
 #[cfg(feature = "gpu")]
+mod esc;
+#[cfg(feature = "gpu")]
 mod number;
 #[allow(dead_code, reason = "other tests use the rest")]
 #[path = "../support/random.rs"]

@@ -21,6 +21,11 @@ pub(crate) fn device() -> Option<&'static Device> {
     device.as_ref()
 }
 
+/// A device of a test's own, to be limited.
+pub(crate) fn another() -> tessim::error::Result<Device> {
+    Device::open(Backend::Auto, sources())
+}
+
 fn sources() -> Sources {
     match std::env::var_os("TESSIM_KERNELS") {
         Some(folder) => Sources::from_folder(Path::new(&folder)).expect("a folder of kernels"),
