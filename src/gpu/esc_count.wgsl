@@ -96,34 +96,45 @@ fn join(triangle: u32, first: u32, last: u32) {
     }
 }
 
-// What tests of the scope evaluated and the mesh did not get.
-fn settle() {
+// What the tests of a coarse edge evaluated and the mesh did not get.
+fn settle_edge(number: u32) {
+    let edge = coarse_edge(number);
+    let level = level_of(edge, levels);
+    if ((tested[number / 32u] >> (number % 32u) & 1u) == 0u || level == 0u) {
+        return;
+    }
+    if (settings.k == REUSE_NONE) {
+        scope += 1u;
+    }
+    // Candidates, and with chords the ends.
+    let ends = select(0u, 2u, settings.i != 0u);
+    for (var k = 1u; k <= level + ends; k += 1u) {
+        var position = (k - level - 1u) * segments;
+        if (k <= level) {
+            position = slot(k, level, levels.interior);
+        }
+        let place = crossing(edge, position, segments);
+        let kind = kind_of(place, segments);
+        if (kind != CORNER && is_new(place)) {
+            made[TESTED] += 1u;
+            made[TESTED_BOUNDARY] += u32(kind == BOUNDARY);
+        }
+    }
+}
+
+// The same of all edges that the scope tested: those of a coarse triangle, or any.
+fn settle(triangle: u32) {
     if (settings.f == TESTS_APART) {
         scope += 1u;
     }
-    for (var number = 0u; number < COARSE_EDGES; number += 1u) {
-        let edge = coarse_edge(number);
-        let level = level_of(edge, levels);
-        if ((tested[number / 32u] >> (number % 32u) & 1u) == 0u || level == 0u) {
-            continue;
+    let edges = edges_of(triangle);
+    let whole = settings.k == REUSE_PATCH;
+    for (var n = 0u; n < select(3u, COARSE_EDGES, whole); n += 1u) {
+        var number = n;
+        if (!whole) {
+            number = edges[n];
         }
-        if (settings.k == REUSE_NONE) {
-            scope += 1u;
-        }
-        // Candidates, and with chords the ends.
-        let ends = select(0u, 2u, settings.i != 0u);
-        for (var k = 1u; k <= level + ends; k += 1u) {
-            var position = (k - level - 1u) * segments;
-            if (k <= level) {
-                position = slot(k, level, levels.interior);
-            }
-            let place = crossing(edge, position, segments);
-            let kind = kind_of(place, segments);
-            if (kind != CORNER && is_new(place)) {
-                made[TESTED] += 1u;
-                made[TESTED_BOUNDARY] += u32(kind == BOUNDARY);
-            }
-        }
+        settle_edge(number);
     }
 }
 
@@ -161,7 +172,7 @@ fn take_part(triangle: u32, first: u32, last: u32) {
         made[BUFFER] = max(made[BUFFER], held);
     }
     if (settings.k != REUSE_PATCH) {
-        settle();
+        settle(triangle);
     }
 }
 
@@ -169,7 +180,7 @@ fn close(section: u32) {
     made[NETS] += 1u;
     made[OBJECT_NETS] += u32(settings.f == TESTS_APART);
     if (settings.k == REUSE_PATCH) {
-        settle();
+        settle(0u);
         made[BUFFER] = max(made[BUFFER], places_of(section));
     }
     tested = array<u32, 2>(0u, 0u);

@@ -39,24 +39,14 @@ fn has_row(insertion: Insertion, row: u32) -> bool {
 
 // The closest row above that has vertices; the apex has.
 fn row_above(insertion: Insertion, row: u32) -> u32 {
-    var above = row - 1u;
-    while (above > 0u && !has_row(insertion, above)) {
-        above -= 1u;
-    }
-    return above;
+    return firstLeadingBit((insertion.left | insertion.right) & ((1u << row) - 1u));
 }
 
 // The inserted position that is nearest, of two the later one. Both ends are inserted.
 fn nearest(chain: u32, position: u32) -> u32 {
-    for (var away = 0u; away <= 16u; away += 1u) {
-        if ((chain >> min(position + away, 31u) & 1u) != 0u) {
-            return position + away;
-        }
-        if (away <= position && (chain >> (position - away) & 1u) != 0u) {
-            return position - away;
-        }
-    }
-    return position;
+    let after = firstTrailingBit(chain & ~((1u << position) - 1u));
+    let before = firstLeadingBit(chain & ((2u << position) - 1u));
+    return select(before, after, after - position <= position - before);
 }
 
 // What stands at a place of a row that has vertices: a site, as row and place.
