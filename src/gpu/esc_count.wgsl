@@ -1,6 +1,11 @@
 // What the surface-level shader's invocations cost: mesh and decisions in, counts of a patch out.
 // One invocation a patch walks through its sections, as what a point costs depends on what the
 // same section has seen before. And triangles with equal positions, and greatest counts.
+//
+// A dispatch takes few sections, and rows are summed in blocks: a driver may end an invocation's
+// loops after 65,535 iterations in all without a word (llvmpipe does).
+//
+// Own words that differ here: `count` takes sections from a to b.
 
 // A word a crossing: the last scope that saw it.
 @group(0) @binding(3) var<storage, read_write> stamps: array<u32>;
@@ -34,6 +39,10 @@ const MOVED = 11u;
 const LEAVE = 12u;
 const ATTRIBUTES = 13u;
 const LANES = 14u; // components of a patch that is kept
+const SCOPE = 15u; // the last one, while dispatches go on
+
+// Rows that are folded into one.
+const BLOCK = 1024u;
 
 const REUSE_NONE = 0u;
 const REUSE_TRIANGLE = 1u;
@@ -176,7 +185,11 @@ fn take_part(triangle: u32, first: u32, last: u32) {
     }
 }
 
+// Ends a section, and begins the next.
 fn close(section: u32) {
+    if (section == COARSE_TRIANGLES * 16u) {
+        return;
+    }
     made[NETS] += 1u;
     made[OBJECT_NETS] += u32(settings.f == TESTS_APART);
     if (settings.k == REUSE_PATCH) {
@@ -188,21 +201,22 @@ fn close(section: u32) {
 }
 
 fn take_sections() {
-    var open = section_of(0u, 1u);
-    scope = 1u;
+    var open = COARSE_TRIANGLES * 16u; // none
     for (var triangle = 0u; triangle < COARSE_TRIANGLES; triangle += 1u) {
         var first = 1u;
         while (first <= segments) {
             let section = section_of(triangle, first);
-            if (section != open) {
-                close(open);
-                open = section;
-            }
             var last = first;
             while (last < segments && section_of(triangle, last + 1u) == section) {
                 last += 1u;
             }
-            take_part(triangle, first, last);
+            if (section >= settings.a && section < settings.b) {
+                if (section != open) {
+                    close(open);
+                    open = section;
+                }
+                take_part(triangle, first, last);
+            }
             first = last + 1u;
         }
     }
@@ -222,42 +236,65 @@ fn count_moved() {
     }
 }
 
+// Whether the patch goes further; and its levels.
+fn load(item: u32) -> bool {
+    let at = RESOLUTION * item;
+    let edges = vec4(
+        resolutions[at], resolutions[at + 1u], resolutions[at + 2u], resolutions[at + 3u]
+    );
+    levels = Levels(edges, resolutions[at + INTERIOR]);
+    at_patch = item;
+    segments = levels.interior + 1u;
+    return levels.interior != SKIPPED;
+}
+
 @compute @workgroup_size(64)
 fn count(
     @builtin(global_invocation_id) id: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
 ) {
     let item = item_of(id, groups);
-    if (item >= settings.items) {
+    if (item >= settings.items || !load(item)) {
         return;
     }
-    let at = RESOLUTION * item;
-    let edges = vec4(
-        resolutions[at], resolutions[at + 1u], resolutions[at + 2u], resolutions[at + 3u]
-    );
-    levels = Levels(edges, resolutions[at + INTERIOR]);
-    if (levels.interior == SKIPPED) {
-        return;
+    for (var k = 0u; k < COST; k += 1u) {
+        made[k] = costs[COST * item + k];
     }
-    at_patch = item;
-    segments = levels.interior + 1u;
+    scope = made[SCOPE] + 1u;
     take_sections();
+    made[SCOPE] = scope;
+    for (var k = 0u; k < COST; k += 1u) {
+        costs[COST * item + k] = made[k];
+    }
+}
+
+// What needs no section.
+@compute @workgroup_size(64)
+fn sum_up(
+    @builtin(global_invocation_id) id: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let item = item_of(id, groups);
+    if (item >= settings.items || !load(item)) {
+        return;
+    }
     count_moved();
+    let to = COST * item;
     var listed = 0u;
     for (var triangle = 0u; triangle < COARSE_TRIANGLES; triangle += 1u) {
         let row = WALK * (COARSE_TRIANGLES * item + triangle);
         listed += strips[row + 3u];
         for (var k = 0u; k < 4u && settings.k == REUSE_NONE; k += 1u) {
-            made[KINDS + k] += strips[row + 4u + k];
+            costs[to + KINDS + k] += strips[row + 4u + k];
         }
     }
-    let points = made[KINDS] + made[KINDS + 1u] + made[KINDS + 2u] + made[KINDS + 3u];
-    made[LEAVE] = select(points, listed, settings.k == REUSE_NONE);
-    made[ATTRIBUTES] = made[LEAVE] * components[item];
-    made[LANES] = components[item];
-    for (var k = 0u; k < COST; k += 1u) {
-        costs[COST * item + k] = made[k];
-    }
+    let at = to + KINDS;
+    let points = costs[at] + costs[at + 1u] + costs[at + 2u] + costs[at + 3u];
+    let leave = select(points, listed, settings.k == REUSE_NONE);
+    costs[to + MOVED] = made[MOVED];
+    costs[to + LEAVE] = leave;
+    costs[to + ATTRIBUTES] = leave * components[item];
+    costs[to + LANES] = components[item];
 }
 
 fn is_same(a: u32, b: u32) -> bool {
@@ -300,4 +337,23 @@ fn peak(@builtin(global_invocation_id) id: vec3<u32>) {
         most = max(most, rows[settings.b * row + settings.c]);
     }
     peaks[0] = most;
+}
+
+// Sums of a column over a block of rows; so a common sum has few rows. Of each of `settings.a` rows
+// of `settings.b` words.
+@compute @workgroup_size(64)
+fn fold(
+    @builtin(global_invocation_id) id: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let item = item_of(id, groups);
+    if (item >= settings.items) {
+        return;
+    }
+    let first = item / settings.b * BLOCK;
+    var sum = 0u;
+    for (var row = first; row < min(first + BLOCK, settings.a); row += 1u) {
+        sum += rows[settings.b * row + item % settings.b];
+    }
+    peaks[item] = sum;
 }

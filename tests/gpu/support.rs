@@ -22,8 +22,8 @@ pub(crate) fn device() -> Option<&'static Device> {
 }
 
 /// A device of a test's own, to be limited.
-pub(crate) fn another() -> tessim::error::Result<Device> {
-    Device::open(Backend::Auto, sources())
+pub(crate) fn another(backend: Backend) -> tessim::error::Result<Device> {
+    Device::open(backend, sources())
 }
 
 fn sources() -> Sources {

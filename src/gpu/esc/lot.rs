@@ -23,6 +23,11 @@ const NET: usize = 128;
 const PROJECTION: usize = 5;
 const EVENTS: usize = 2;
 
+/// Sections of a patch that a dispatch counts, and rows that are summed as one: so that no
+/// invocation's loops are long, as esc_count.wgsl says.
+const SECTIONS: u32 = 8;
+const BLOCK: usize = 1024;
+
 /// Most words of any buffer that a patch may take.
 pub(super) fn most_words(config: &Config) -> usize {
     let segments = config.esc.level_max as usize + 1;
@@ -201,15 +206,31 @@ impl<'a> Lot<'a> {
         Ok(words.chunks(2).map(sum).collect())
     }
 
+    /// The same of any number of rows, whose sums over a block fit 32 bits.
+    fn summed_by_blocks(&self, rows: &Buffer, each: usize, count: usize) -> Result<Vec<u64>> {
+        let blocks = count.div_ceil(BLOCK);
+        let sums = self.device.empty(each * blocks)?;
+        let mut settings = self.settings.of(each * blocks);
+        settings.own[..2].copy_from_slice(&[count as u32, each as u32]);
+        self.device.run(Kernel::EscMesh, "fold", &settings, &[rows, &sums])?;
+        self.summed(&sums, each, blocks)
+    }
+
     /// What invocations cost: rows of COST words.
     fn costs(&self, decisions: &Buffer, walks: &Buffer) -> Result<Buffer> {
         let (device, count) = (self.device, self.work.count());
         let stamps = device.empty(CROSSINGS * count)?;
-        let table = device.upload(&sections(self.work.config).0)?;
+        let (table, sections) = sections(self.work.config);
+        let table = device.upload(&table)?;
         let components = device.upload(self.work.components)?;
         let costs = device.empty(COST * count)?;
         let buffers = [&self.resolutions, decisions, &stamps, &table, &components, walks, &costs];
-        self.run(Kernel::EscMesh, "count", count, &buffers)?;
+        for first in (0..sections).step_by(SECTIONS as usize) {
+            let mut settings = self.settings.of(count);
+            settings.own[..2].copy_from_slice(&[first, first + SECTIONS]);
+            device.run(Kernel::EscMesh, "count", &settings, &buffers)?;
+        }
+        self.run(Kernel::EscMesh, "sum_up", count, &buffers)?;
         Ok(costs)
     }
 

@@ -48,7 +48,7 @@ impl Lot<'_> {
         let levels = self.summed(&self.resolutions, RESOLUTION, count)?;
         let tested = self.summed(decisions, DECISION, COARSE_EDGES * count)?;
         let vertices = *mesh.starts[0].last().expect("a sum") as usize;
-        let evaluated = self.summed(events, EVENTS, vertices)?;
+        let evaluated = self.summed_by_blocks(events, EVENTS, vertices)?;
         let sums = Sums {
             levels: std::array::from_fn(|k| levels[CLAMPED + k]),
             walks: self.summed(&mesh.walks, WALK, COARSE_TRIANGLES * count)?,
