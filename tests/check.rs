@@ -29,9 +29,8 @@ mod with_a_device {
     use tessim::study::check::{self, Checked};
     use tessim::trace::replay::Replay;
 
-    const TRACES: [&str; 9] = [
-        "teapot", "teacup", "teaspoon", "mesh", "rational", "strip", "fan", "indexed", "zoom",
-    ];
+    const TRACES: [&str; 9] =
+        ["teapot", "teacup", "teaspoon", "mesh", "rational", "strip", "fan", "indexed", "zoom"];
 
     /// Formats: from the least that traces stand to the widest.
     const FORMATS: [&[&str]; 5] = [

@@ -118,7 +118,9 @@ impl Kernel {
             Self::Single => &["single.wgsl", "single_operations.wgsl"],
             Self::EscLevel => &["esc_pattern.wgsl", "esc_level.wgsl"],
             Self::Esc => &["esc_pattern.wgsl", "esc.wgsl"],
-            Self::EscMesh => &["esc_pattern.wgsl", "esc_strip.wgsl", "esc_count.wgsl", "esc_mesh.wgsl"],
+            Self::EscMesh => {
+                &["esc_pattern.wgsl", "esc_strip.wgsl", "esc_count.wgsl", "esc_mesh.wgsl"]
+            }
         }
     }
 

@@ -102,6 +102,7 @@ impl Batch<'_> {
         let fates = self.cull(&settings, &patches)?;
         let components = device.upload(&work.components[chunk])?;
         let (source, levels) = self.levels(&settings, seen.as_ref().unwrap_or(&patches), &fates)?;
+        self.made.levels.extend(device.read(&levels, 0, levels.words())?);
         let placing = Placing {
             patches: &patches,
             fates: &fates,

@@ -18,6 +18,8 @@ mod d3d11_unit;
 #[cfg(feature = "gpu")]
 mod emit;
 #[cfg(feature = "gpu")]
+mod esc;
+#[cfg(feature = "gpu")]
 mod evaluate;
 #[cfg(feature = "gpu")]
 mod level;

@@ -33,7 +33,13 @@ pub(super) fn compare(
         if let Some(fate) = made.fates.chunks_exact(4).nth(k) {
             let (clipped, planes) = clipped(arrived, config, frame);
             let got = [u32::from(fate[0] == CLIPPED), fate[3]];
-            ledger.compare(("clip", "verdicts, outcodes"), &[clipped.into(), planes], &got, place, inputs);
+            ledger.compare(
+                ("clip", "verdicts, outcodes"),
+                &[clipped.into(), planes],
+                &got,
+                place,
+                inputs,
+            );
             if !clipped {
                 let want = culled(arrived, config, frame);
                 let got = [fate[0], fate[1], fate[2]];
@@ -58,8 +64,7 @@ fn clipped(arrived: &Arrived, config: &Config, frame: &FrameInfo) -> (bool, u32)
 }
 
 fn culled(arrived: &Arrived, config: &Config, frame: &FrameInfo) -> [u32; 3] {
-    let (verdict, facets) =
-        backface::accept(&arrived.patch, &frame.eye, config.backface.method);
+    let (verdict, facets) = backface::accept(&arrived.patch, &frame.eye, config.backface.method);
     let fate = if verdict == Verdict::Culled { CULLED } else { KEPT };
     [fate, u32::from(verdict != Verdict::Untested), facets]
 }

@@ -4,7 +4,7 @@ use super::ledger::Ledger;
 use super::tap::{Item, Mesh};
 use crate::config::{Config, Unit};
 use crate::error::Result;
-use crate::gpu::{self, Device, Made, Settings, VERTEX, push_patch};
+use crate::gpu::{self, Device, Made, Settings, VERTEX, push_patch, words};
 use crate::sink::{Arrived, FrameInfo};
 use rtl_model::level::{self, Criterion};
 use rtl_model::patch::Patch;
@@ -19,10 +19,7 @@ pub(super) fn state(state: &level::State) -> gpu::State {
     [criterion, number, state.min.fx16(), state.max.fx16()]
 }
 
-fn patches<'a>(
-    items: &'a [Item],
-    of: impl Fn(&'a Arrived) -> Option<Patch>,
-) -> Option<Vec<u32>> {
+fn patches<'a>(items: &'a [Item], of: impl Fn(&'a Arrived) -> Option<Patch>) -> Option<Vec<u32>> {
     let mut out = Vec::with_capacity(gpu::PATCH * items.len());
     for Item { arrived, .. } in items {
         push_patch(&mut out, &of(arrived)?, state(&arrived.state), [0; 3]);
@@ -58,13 +55,12 @@ pub(super) fn make(
             let shaded = items.iter().flat_map(|item| item.arrived.shaded.as_flattened());
             let shaded: Vec<u32> = shaded.map(|c| c.to_bits()).collect();
             let hull_bytes: Vec<u32> = items.iter().map(|item| item.arrived.hull_bytes).collect();
-            let near = frame.near;
             gpu::d3d11::d3d11(
                 device,
                 &gpu::d3d11::D3d11 {
                     config,
                     settings,
-                    near,
+                    position: frame.eye.position,
                     patches: &own,
                     shaded: &shaded,
                     components: &components,
@@ -73,9 +69,13 @@ pub(super) fn make(
             )
         }
         Unit::Esc => {
-            let object = patches(items, |arrived| {
-                arrived.object.map(|points| Patch { points, ..arrived.patch })
-            });
+            let object = items.iter().map(|item| item.arrived.object);
+            let object: Option<Vec<u32>> = object
+                .map(|points| Some(points?.into_iter().flatten().flat_map(words)))
+                .try_fold(Vec::new(), |mut all, words| {
+                    all.extend(words?);
+                    Some(all)
+                });
             let levels: Option<Vec<u32>> =
                 items.iter().map(|item| item.arrived.object_level.map(u32::from)).collect();
             gpu::esc::esc(
@@ -132,9 +132,8 @@ fn parts(
         return ledger.compare(row, cpu, gpu, String::new, String::new);
     }
     for k in 0..cpu.len().max(gpu.len()).div_ceil(size) {
-        let part = |all: &[u32]| -> Vec<u32> {
-            all.iter().skip(k * size).take(size).copied().collect()
-        };
+        let part =
+            |all: &[u32]| -> Vec<u32> { all.iter().skip(k * size).take(size).copied().collect() };
         let place = || format!("{place}, {what} {k}");
         ledger.compare(row, &part(cpu), &part(gpu), place, inputs);
     }
