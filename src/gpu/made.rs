@@ -9,8 +9,8 @@ pub struct Made {
     /// Four words a patch: 0 clipped, 1 culled, 2 kept; whether backface tested it; what that
     /// looked at; the planes that all its points are outside of. Empty in units without culling.
     pub fates: Vec<u32>,
-    /// What the level kernel said: [`super::level::LEVELS`] words a patch, or
-    /// [`super::level::LISTS`]. Empty in units that choose otherwise.
+    /// What the level kernel said: [`super::LEVELS`] words a patch, or
+    /// [`super::LISTS`]. Empty in units that choose otherwise.
     pub levels: Vec<u32>,
     /// Where each patch's vertices begin, and behind the last one their number.
     pub vertex_starts: Vec<u32>,

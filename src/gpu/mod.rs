@@ -8,9 +8,9 @@
 mod backface;
 pub mod d3d11;
 mod device;
-pub mod esc;
+mod esc;
 mod kernel;
-pub mod level;
+mod level;
 mod made;
 mod record;
 mod settings;
@@ -18,7 +18,9 @@ pub mod surface;
 
 pub use backface::backface;
 pub use device::{Backend, Buffer, Device};
+pub use esc::{Decided, Esc, decide, esc};
 pub use kernel::{Kernel, Sources};
+pub use level::{LEVELS, LISTS, level, subdivide};
 pub use made::{Made, Name};
 pub use record::Dispatch;
 pub use settings::{PATCH, Settings, State, VERTEX, integer, push_patch, rounding, words};

@@ -22,13 +22,12 @@ pub(crate) fn device() -> Option<&'static Device> {
 }
 
 /// A device that no other test dispatches on.
-pub(crate) fn another() -> Option<Device> {
-    device()?;
-    Device::open(backend(), sources()).ok()
+pub(crate) fn another(backend: Backend) -> tessim::error::Result<Device> {
+    Device::open(backend, sources())
 }
 
 /// The one that `TESSIM_BACKEND` names.
-fn backend() -> Backend {
+pub(crate) fn backend() -> Backend {
     let name = std::env::var("TESSIM_BACKEND").unwrap_or_else(|_| "auto".to_owned());
     let found = Backend::ALL.into_iter().find(|backend| backend.name() == name);
     found.unwrap_or_else(|| panic!("TESSIM_BACKEND: found {name}, expected auto, vulkan or gl"))

@@ -154,6 +154,7 @@ impl<'a> Lot<'a> {
             .each_ref()
             .map(|starts| starts.iter().step_by(COARSE_TRIANGLES).copied().collect());
         Ok(Made {
+            levels: Vec::new(),
             fates: self.device.read(&self.fates, 0, self.fates.words())?,
             vertex_starts,
             triangle_starts,

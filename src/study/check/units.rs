@@ -78,9 +78,9 @@ pub(super) fn make(
                 });
             let levels: Option<Vec<u32>> =
                 items.iter().map(|item| item.arrived.object_level.map(u32::from)).collect();
-            gpu::esc::esc(
+            gpu::esc(
                 device,
-                &gpu::esc::Esc {
+                &gpu::Esc {
                     config,
                     settings,
                     position: frame.eye.position,
