@@ -78,13 +78,13 @@ fn set_up(at: u32, p: I64, q: I64, r: I64, s: I64, step: u32) {
     var powers = array<I64, 3>(cube.yz, square, I64(0u, step));
     // How often each term is in D1, D2, D3.
     var shares = array<vec3<u32>, 3>(vec3(1u, 1u, 1u), vec3(6u, 2u, 0u), vec3(6u, 0u, 0u));
-    for (var register = 0u; register < 3u; register += 1u) {
+    for (var order = 0u; order < 3u; order += 1u) {
         var sum = NONE128;
         for (var term = 0u; term < 3u; term += 1u) {
-            let share = mul64(coefficients[term], I64(shares[register][term], 0u));
+            let share = mul64(coefficients[term], I64(shares[order][term], 0u));
             sum = add128(sum, times(share, powers[term]));
         }
-        store(at + 2u * register, register_of(sum));
+        store(at + 2u * order, register_of(sum));
     }
 }
 
