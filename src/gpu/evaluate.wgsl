@@ -78,13 +78,13 @@ fn set_up(at: u32, p: I64, q: I64, r: I64, s: I64, step: u32) {
     var powers = array<I64, 3>(cube.yz, square, I64(0u, step));
     // How often each term is in D1, D2, D3.
     var shares = array<vec3<u32>, 3>(vec3(1u, 1u, 1u), vec3(6u, 2u, 0u), vec3(6u, 0u, 0u));
-    for (var register = 0u; register < 3u; register += 1u) {
+    for (var order = 0u; order < 3u; order += 1u) {
         var sum = NONE128;
         for (var term = 0u; term < 3u; term += 1u) {
-            let share = mul64(coefficients[term], I64(shares[register][term], 0u));
+            let share = mul64(coefficients[term], I64(shares[order][term], 0u));
             sum = add128(sum, times(share, powers[term]));
         }
-        store(at + 2u * register, register_of(sum));
+        store(at + 2u * order, register_of(sum));
     }
 }
 
@@ -125,8 +125,8 @@ fn fixed_lines(
     let apart = select(4u, 1u, line == 0u || line == 2u);
     let at = line_at(number, line) + AXIS * axis;
     for (var k = 0u; k < 4u; k += 1u) {
-        let from = number * PATCH + 8u * (firsts[line] + apart * k) + 2u * axis;
-        store(at + 2u * k, I64(patches[from], patches[from + 1u]));
+        let origin = number * PATCH + 8u * (firsts[line] + apart * k) + 2u * axis;
+        store(at + 2u * k, I64(patches[origin], patches[origin + 1u]));
     }
     if (in_differences(line < COLUMN)) {
         set_up_ends(at, plan, select(ALONG_V, line, line < COLUMN));
@@ -172,12 +172,12 @@ fn difference_point(at: u32, segments: u32, entry: u32) -> I64 {
         return round64(sum, 3u, settings.rounding);
     }
     let run = run_of(segments, entry);
-    let from = at + select(NEAR_END, FAR_END, run.x != 0u);
+    let origin = at + select(NEAR_END, FAR_END, run.x != 0u);
     var sum = shl64(load(at + select(0u, 6u, run.x != 0u)), settings.guard);
     // C(k, n), n = 1, 2, 3: at most 41664 for 64 steps.
     var choose = run.y;
     for (var n = 1u; n <= 3u; n += 1u) {
-        sum = add64(sum, mul64(load(from + 2u * n - 2u), I64(choose, 0u)));
+        sum = add64(sum, mul64(load(origin + 2u * n - 2u), I64(choose, 0u)));
         choose = choose * (run.y - min(n, run.y)) / (n + 1u);
     }
     return round64(sum, settings.guard, settings.rounding);
@@ -230,9 +230,9 @@ fn rows(
     let at = line_at(number, line) + AXIS * axis;
     let differences = in_differences(false);
     for (var column = 0u; column < 4u; column += 1u) {
-        let from = line_at(number, COLUMN + column) + AXIS * axis;
+        let origin = line_at(number, COLUMN + column) + AXIS * axis;
         let entry = line - FIXED + 1u;
-        store(at + 2u * column, line_point(from, plan, ALONG_V, entry, differences));
+        store(at + 2u * column, line_point(origin, plan, ALONG_V, entry, differences));
     }
     if (differences) {
         set_up_ends(at, plan, ALONG_U);

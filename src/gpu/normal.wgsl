@@ -58,8 +58,8 @@ fn across(at: u32, inner: u32, outer: u32, s: u32, t: u32) -> Tangent {
     for (var k = 0u; k < 4u; k += 1u) {
         var points = array<I64, 4>(NONE64, NONE64, NONE64, NONE64);
         for (var j = 0u; j < 4u; j += 1u) {
-            let from = at + 8u * (inner * j + outer * k);
-            points[j] = I64(patches[from], patches[from + 1u]);
+            let origin = at + 8u * (inner * j + outer * k);
+            points[j] = I64(patches[origin], patches[origin + 1u]);
         }
         ends[k] = tangent(points, s).point;
     }

@@ -41,7 +41,8 @@ fn segments_of(level: u32) -> u32 {
 
 fn place_levels(plan: u32, at: u32) {
     var most = 0u;
-    for (var list = 0u; list < 6u; list += 1u) {
+    let given = select(6u, 4u, settings.b != 0u);
+    for (var list = 0u; list < given; list += 1u) {
         most = max(most, levels[at + list]);
     }
     var divided = 0u;
