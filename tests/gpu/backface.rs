@@ -46,6 +46,51 @@ fn draw(random: &mut Random, width: u32) -> Patch {
     patch
 }
 
+/// A sheet seen from one side but for a fold at an edge: of all coefficients of det[S, Su, Sv] one
+/// alone is towards the other side, at its ends the second or the last but one.
+fn fold(random: &mut Random, width: u32) -> Patch {
+    let max = (1_i64 << (width - 1)) - 1;
+    let mut patch = random::patch(random, Kind::Planar, max);
+    let unit = (max / 64).max(1);
+    let side = random.of([-1, 1]);
+    patch.points = std::array::from_fn(|k| {
+        let [i, j] = [k as i64 / 4, k as i64 % 4];
+        // Steps along u of the first row: none, one forward, many back.
+        let x = if i == 0 { [0, 0, 1, -13][j as usize] } else { -13 * j };
+        [side * unit * x, 13 * unit * i, 0, max / 2]
+    });
+    if random.bits() & 1 == 0 {
+        patch.points.reverse();
+    }
+    patch
+}
+
+/// A patch whose fate is another as soon as it moves by an ulp or so: on the way between two.
+fn boundary(random: &mut Random, view: &View, method: BackfaceMethod) -> Patch {
+    const STEPS: u32 = 24;
+    let width = view.position.width;
+    let [from, to] =
+        [(); 2].map(|()| Patch { cull: true, saturated: false, ..draw(random, width) });
+    let to = Patch { reversed: from.reversed, ..to };
+    let at = |t: i64| {
+        let between = |a: i64, b: i64| {
+            ((i128::from(a) * i128::from((1 << STEPS) - t) + i128::from(b) * i128::from(t))
+                >> STEPS) as i64
+        };
+        let points = std::array::from_fn(|k| {
+            std::array::from_fn(|axis| between(from.points[k][axis], to.points[k][axis]))
+        });
+        Patch { points, ..from }
+    };
+    let [mut low, mut high] = [0, 1 << STEPS];
+    let first = fate(&from, view, method);
+    while high - low > 1 {
+        let middle = i64::midpoint(low, high);
+        if fate(&at(middle), view, method) == first { low = middle } else { high = middle }
+    }
+    at(random.of([low, high]))
+}
+
 fn extreme(random: &mut Random, max: i64) -> i64 {
     random.of([-max - 1, -max, 1 - max, -1, 0, 1, max - 1, max])
 }
@@ -77,6 +122,15 @@ impl Seen {
     }
 }
 
+fn input(random: &mut Random, view: &View, method: BackfaceMethod) -> Patch {
+    match random.integer(0, 31) {
+        0..=3 if method == BackfaceMethod::NormalCone => boundary(random, view, method),
+        0 => boundary(random, view, method),
+        4 => fold(random, view.position.width),
+        _ => draw(random, view.position.width),
+    }
+}
+
 fn compare(method: BackfaceMethod, what: &'static str, patches: usize) {
     let Some(device) = support::device() else { return };
     let mut ledger = Ledger::default();
@@ -87,7 +141,7 @@ fn compare(method: BackfaceMethod, what: &'static str, patches: usize) {
         let mut config = Config::default();
         config.backface.method = method;
         let inputs: Vec<_> =
-            (0..patches * support::effort()).map(|_| draw(&mut random, width)).collect();
+            (0..patches * support::effort()).map(|_| input(&mut random, &view, method)).collect();
         let clipped: Vec<_> = inputs.iter().map(|_| random.integer(0, 15) == 0).collect();
         let mut flat = Vec::with_capacity(PATCH * inputs.len());
         inputs.iter().for_each(|patch| push_patch(&mut flat, patch, [0; 4], [0; 3]));

@@ -36,26 +36,45 @@ fn draw(random: &mut Random, view: &View) -> Input {
             patch.points = patch.points.map(|[x, y, z, _]| [x, y, z, w]);
         }
         3 => pixels = ledge(random, view, &mut patch),
+        4 if random.integer(0, 3) == 0 => pixels = bulge(random, view, &mut patch),
         _ => {}
     }
     Input { patch, state: state(random, pixels.max(1)), culled: random.integer(0, 15) == 0 }
 }
 
-/// Rows and columns that leave their chord by one height: returned in 2^-16 pixels, or one more or
-/// less, so that being flat is a matter of a single ulp.
+/// Rows and columns that leave their chord by one height, or chords of no length by one distance:
+/// returned in 2^-16 pixels, or one more or less, so that being flat is a matter of a single ulp.
 fn ledge(random: &mut Random, view: &View, patch: &mut Patch) -> u32 {
     let max = view.position.max();
     let length = i64::from(random.integer(0, 1)) * (max / 8);
-    let height = (random.octaves(1.0, 1024.0) as i64).min(max / 8);
+    let [along, height] = [(); 2].map(|()| (random.octaves(1.0, 1024.0) as i64).min(max / 16));
     let w = 1 << (view.position.width - 2);
     patch.points = std::array::from_fn(|k| {
         let [i, j] = [k as i64 / 4, k as i64 % 4];
-        let bump = |k: i64| if k % 3 == 0 { 0 } else { height };
-        [j * length + bump(i), i * length + bump(j), 0, w]
+        let [out, up] = [i, j].map(|k| i64::from(k % 3 != 0));
+        [j * length + height * out + along * up, i * length + along * out + height * up, 0, w]
     });
-    let size = random.of(view.viewport);
-    let ulps = i128::from(height) * (i128::from(size) << 15) / i128::from(w);
-    ulps as u32 + random.integer(0, 2) - u32::from(ulps > 0)
+    let ulps =
+        |c: i64, size: u32| (i128::from(c) * (i128::from(size) << 15) / i128::from(w)) as u64;
+    let [x, y] = [ulps(along, view.viewport[0]), ulps(height, view.viewport[1])];
+    let reach = if length == 0 { (x * x + y * y).isqrt() } else { y };
+    reach as u32 + random.integer(0, 2) - u32::from(reach > 0)
+}
+
+/// A net whose inner rows (or columns) are longer than the edges along them, and need more
+/// segments, while across one segment is enough: returned is how long one may be.
+fn bulge(random: &mut Random, view: &View, patch: &mut Patch) -> u32 {
+    let unit = view.position.max() / 64;
+    let w = 1 << (view.position.width - 2);
+    let across = random.bits() & 1 == 0;
+    patch.points = std::array::from_fn(|k| {
+        let [i, j] = if across { [k % 4, k / 4] } else { [k / 4, k % 4] };
+        let x = j as i64 * if i % 3 == 0 { 10 * unit } else { 12 * unit };
+        if across { [0, x, 0, w] } else { [x, 0, 0, w] }
+    });
+    let size = view.viewport[usize::from(across)];
+    let ulps = i128::from(unit) * (i128::from(size) << 15) / i128::from(w);
+    ulps as u32 * random.integer(12, 20)
 }
 
 /// Bounds and a level: whole, a power of two, or anything between.
