@@ -201,7 +201,7 @@ fn surfaces_are_tessellated_alike() {
             compare(&mut ledger, device, &batch);
         }
     }
-    support::settle(&ledger, 300);
+    support::settle(&ledger, 60);
 }
 
 /// As shipped: what most runs have.
