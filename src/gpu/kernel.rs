@@ -36,8 +36,12 @@ pub enum Kernel {
     D3d11Domain,
     /// What both and the tessellator did.
     D3d11Count,
-    /// Singles made of integers, for comparisons.
+    /// What the tessellator's kernels share.
+    Rings,
+    /// Singles made of integers.
     Single,
+    /// The same one by one, for comparisons.
+    SingleOperations,
     /// The surface-level shader.
     Esc,
 }
@@ -48,15 +52,9 @@ const SHARED: [(&str, &str); 2] = [
     ("settings.wgsl", include_str!("settings.wgsl")),
 ];
 
-/// The texts that some kernels share, behind those of all.
-const LIBRARIES: [(&str, &str); 2] = [
-    ("single.wgsl", include_str!("single.wgsl")),
-    ("d3d11_rings.wgsl", include_str!("d3d11_rings.wgsl")),
-];
-
 impl Kernel {
     /// All of them, in the order of the data.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::Number,
         Self::Scan,
         Self::Clip,
@@ -72,7 +70,9 @@ impl Kernel {
         Self::D3d11Hull,
         Self::D3d11Domain,
         Self::D3d11Count,
+        Self::Rings,
         Self::Single,
+        Self::SingleOperations,
         Self::Esc,
     ];
 
@@ -82,13 +82,12 @@ impl Kernel {
         self.embedded().0
     }
 
-    /// The libraries that stand before it.
-    const fn libraries(self) -> &'static [(&'static str, &'static str)] {
-        let [single, rings] = &LIBRARIES;
+    /// The kernel whose text stands before this one's.
+    const fn base(self) -> Option<Self> {
         match self {
-            Self::D3d11 | Self::D3d11Points | Self::D3d11Connect => std::slice::from_ref(rings),
-            Self::D3d11Hull | Self::D3d11Domain | Self::Single => std::slice::from_ref(single),
-            _ => &[],
+            Self::D3d11 | Self::D3d11Points | Self::D3d11Connect => Some(Self::Rings),
+            Self::D3d11Hull | Self::D3d11Domain | Self::SingleOperations => Some(Self::Single),
+            _ => None,
         }
     }
 
@@ -109,7 +108,11 @@ impl Kernel {
             Self::D3d11Hull => ("d3d11_hull.wgsl", include_str!("d3d11_hull.wgsl")),
             Self::D3d11Domain => ("d3d11_domain.wgsl", include_str!("d3d11_domain.wgsl")),
             Self::D3d11Count => ("d3d11_count.wgsl", include_str!("d3d11_count.wgsl")),
-            Self::Single => ("single_operations.wgsl", include_str!("single_operations.wgsl")),
+            Self::Rings => ("d3d11_rings.wgsl", include_str!("d3d11_rings.wgsl")),
+            Self::Single => ("single.wgsl", include_str!("single.wgsl")),
+            Self::SingleOperations => {
+                ("single_operations.wgsl", include_str!("single_operations.wgsl"))
+            }
             Self::Esc => ("esc.wgsl", include_str!("esc.wgsl")),
         }
     }
@@ -125,14 +128,13 @@ pub struct Sources {
 impl Sources {
     /// The names of all files.
     pub fn files() -> impl Iterator<Item = &'static str> {
-        let libraries = SHARED.iter().chain(&LIBRARIES).map(|(name, _)| *name);
-        libraries.chain(Kernel::ALL.map(Kernel::file))
+        SHARED.iter().map(|(name, _)| *name).chain(Kernel::ALL.map(Kernel::file))
     }
 
     /// The shipped text of a file.
     #[must_use]
     pub fn shipped(file: &str) -> Option<&'static str> {
-        let all = SHARED.into_iter().chain(LIBRARIES).chain(Kernel::ALL.map(Kernel::embedded));
+        let all = SHARED.into_iter().chain(Kernel::ALL.map(Kernel::embedded));
         all.into_iter().find(|(name, _)| *name == file).map(|(_, text)| text)
     }
 
@@ -165,8 +167,8 @@ impl Sources {
 
     /// The whole text of a kernel.
     pub(super) fn text(&self, kernel: Kernel) -> String {
-        let own = kernel.embedded();
-        let all = SHARED.iter().chain(kernel.libraries()).chain([&own]);
-        all.map(|(name, text)| self.of(name, text)).collect::<Vec<_>>().join("\n")
+        let own = kernel.base().into_iter().chain([kernel]).map(Kernel::embedded);
+        let texts = SHARED.into_iter().chain(own).map(|(name, text)| self.of(name, text));
+        texts.collect::<Vec<_>>().join("\n")
     }
 }
