@@ -32,6 +32,10 @@ pub const LEVELS: usize = 12;
 /// Words of a patch's fate.
 const FATE: usize = 4;
 
+/// Patches of a batch at most: what adds up their rows goes through them in a loop, and lavapipe
+/// ends the loops of an invocation after 65535 turns.
+const BATCH_MAX: usize = 1 << 15;
+
 /// A batch of patches, in the order of draws.
 #[derive(Clone, Copy, Debug)]
 pub struct D3d11<'a> {
@@ -87,7 +91,7 @@ fn whole(device: &Device, work: &D3d11<'_>, chosen: Option<Chosen<'_>>) -> Resul
     let lengths = [work.patches.len() / PATCH, work.shaded.len() / SHADED, work.hull_bytes.len()];
     assert_eq!(lengths, [patches; 3], "words of as many patches");
     let widest = PATCH.max(shape::net_words(work.config)).max(counts::ROW);
-    let most = (device.words_max() / widest).max(1);
+    let most = (device.words_max() / widest).clamp(1, BATCH_MAX);
     let mut made = Made { vertex_starts: vec![0], triangle_starts: vec![0], ..Made::default() };
     let mut sums = [0; counts::ROW];
     for first in (0..patches).step_by(most) {

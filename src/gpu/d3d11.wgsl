@@ -125,13 +125,10 @@ fn process(
     }
     let begin = item * FACTORS;
     let at = item * PATTERN;
-    for (var k = 0u; k < PATTERN; k += 1u) {
-        processed[at + k] = 0u;
-    }
     let edges = edges_of(settings.a);
     let count = factors_of(settings.a);
     if (any_culls(begin, edges)) {
-        return;
+        return; // the words come as 0
     }
     let inside = inside_least(begin, count);
     let outside = select(ONE_BITS, TWO_BITS, settings.b == EVEN);

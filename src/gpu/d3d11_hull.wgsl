@@ -281,16 +281,9 @@ fn hull(
     if (item >= settings.items) {
         return;
     }
-    for (var k = 0u; k < ROW; k += 1u) {
-        rows[item * ROW + k] = 0u;
-    }
     count_fate(item);
     if (fate[4u * item] != 2u) {
-        // What is culled has factors of 0.
-        for (var place = 0u; place < 6u; place += 1u) {
-            factors[item * 6u + place] = 0u;
-        }
-        return;
+        return; // what is culled has factors of 0, as they come
     }
     let at = item * ROW + 6u;
     let clamped = write_factors(item);

@@ -122,7 +122,7 @@ fn patterns_are_the_same_where_buffers_are_small() {
     let mut small = Device::open(Backend::Auto, Sources::default()).unwrap();
     small.limit_words(30_000); // a pattern of 4225 points has 24576 numbers
     let mut random = Random::new(1106);
-    let factors: Vec<u32> = (0..3000).flat_map(|_| draw(&mut random)).collect();
+    let factors: Vec<u32> = (0..400).flat_map(|_| draw(&mut random)).collect();
     for output in [Output::Line, Output::Clockwise] {
         let tessellation =
             Tessellation { domain: Domain::Quad, partitioning: Partitioning::Odd, output };

@@ -58,8 +58,8 @@ impl Batch {
         self.levels.extend(level_words(&levels, events));
     }
 
-    fn made(&self, device: &Device, config: &Config, view: &View) -> Made {
-        let work = D3d11 {
+    fn work<'a>(&'a self, config: &'a Config, view: &View) -> D3d11<'a> {
+        D3d11 {
             config,
             settings: Settings::new(config, view, view.position),
             position: view.position,
@@ -67,7 +67,11 @@ impl Batch {
             shaded: &self.shaded,
             components: &self.components,
             hull_bytes: &self.hull_bytes,
-        };
+        }
+    }
+
+    fn made(&self, device: &Device, config: &Config, view: &View) -> Made {
+        let work = self.work(config, view);
         let chosen = Chosen { fates: &self.fates, levels: &self.levels };
         from_hull(device, &work, chosen).unwrap()
     }
@@ -312,7 +316,7 @@ impl Modal for Accept<'_> {
 
 /// A draw's state: levels that a pattern of a few hundred points has, and some of all.
 fn state(random: &mut Random) -> State {
-    let most = random.of([3.0, 7.0, 12.0, 30.0]);
+    let most = if random.integer(0, 40) == 0 { 80.0 } else { random.of([3.0, 7.0, 12.0, 30.0]) };
     let level = |segments: f64| Level::clamped((segments * 65536.0) as u64);
     let min = level(random.octaves(0.9, most));
     let max = level(random.octaves(0.9, 2.0 * most)).max(min);

@@ -76,7 +76,7 @@ fn run(operation: usize, operands: &[u32]) -> Option<Vec<u32>> {
     settings.own[0] = operation as u32;
     let flat = device.upload(operands).unwrap();
     let out = device.empty(items).unwrap();
-    device.run(Kernel::Single, "operate", &settings, &[&flat, &out]).unwrap();
+    device.run(Kernel::SingleOperations, "operate", &settings, &[&flat, &out]).unwrap();
     Some(device.read(&out, 0, items).unwrap())
 }
 

@@ -15,6 +15,10 @@ pub(super) const PATTERN: usize = 16;
 const POINTS: usize = 14;
 const PRIMITIVES: usize = 15;
 
+/// Patches of a batch at most: sums over them are 64 loops side by side, twice, and lavapipe ends
+/// the loops of an invocation after 65535 turns.
+const BATCH_MAX: usize = 1 << 20;
+
 /// What is tessellated, as the kernels number it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Domain {
@@ -85,7 +89,7 @@ pub fn patterns(device: &Device, tessellation: Tessellation, factors: &[u32]) ->
         return Err(Error::Usage("an isoline domain has points and lines, no triangles".into()));
     }
     let mut made = Patterns { point_starts: vec![0], primitive_starts: vec![0], ..<_>::default() };
-    let most = (device.words_max() / (PATTERN + 1)).max(1);
+    let most = (device.words_max() / (PATTERN + 1)).clamp(1, BATCH_MAX);
     for chunk in factors.chunks(FACTORS * most) {
         let patches = chunk.len() / FACTORS;
         let laid = Laid::new(device, tessellation, &device.upload(chunk)?, patches)?;
