@@ -8,6 +8,7 @@
 mod device;
 mod kernel;
 mod made;
+pub mod render;
 mod settings;
 
 pub use device::{Backend, Buffer, Device};
