@@ -48,6 +48,14 @@ pub(super) fn tastes() -> impl TypedValueParser<Value = Taste> {
         .map(|name| Taste::named(&name).expect("only names of styles are possible values"))
 }
 
+/// The names of single styles.
+pub(super) fn styles() -> impl TypedValueParser<Value = Style> {
+    PossibleValuesParser::new(STYLES.map(Style::name)).map(|name| {
+        let style = STYLES.into_iter().find(|style| style.name() == name);
+        style.expect("only names of styles are possible values")
+    })
+}
+
 fn size(text: &str) -> std::result::Result<[u32; 2], String> {
     let sides: Vec<_> = text.split(['x', 'X']).map(str::parse::<u32>).collect();
     match sides[..] {
