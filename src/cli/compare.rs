@@ -58,6 +58,9 @@ struct Wanted {
     /// The frame that is drawn, from 0 [default: 0]
     #[arg(long, value_name = "N", requires = "pictures")]
     frame: Option<u64>,
+    /// Width and height of each unit's picture in pixels [default: 640 along the longer side]
+    #[arg(long, value_name = "WxH", requires = "pictures", value_parser = super::render::size)]
+    size: Option<[u32; 2]>,
 }
 
 /// What the folder holds.
@@ -90,8 +93,9 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
         folder.write("summary.json", summary::comparison(&reports, &provenance).as_bytes())?;
         #[cfg(feature = "gpu")]
         if let Some(style) = args.wanted.pictures {
-            let frame = args.wanted.frame.unwrap_or(0);
-            let sheet = pool.install(|| pictures::sheet(&mut trace, &configs, frame, style))?;
+            let (frame, size) = (args.wanted.frame.unwrap_or(0), args.wanted.size);
+            let sheet = || pictures::sheet(&mut trace, &configs, frame, style, size);
+            let sheet = pool.install(sheet)?;
             folder.write(PICTURES[0], &sheet)?;
         }
         folder.commit()?;

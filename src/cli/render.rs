@@ -56,7 +56,8 @@ pub(super) fn styles() -> impl TypedValueParser<Value = Style> {
     })
 }
 
-fn size(text: &str) -> std::result::Result<[u32; 2], String> {
+/// Width and height from a text.
+pub(super) fn size(text: &str) -> std::result::Result<[u32; 2], String> {
     let sides: Vec<_> = text.split(['x', 'X']).map(str::parse::<u32>).collect();
     match sides[..] {
         [Ok(width), Ok(height)]

@@ -101,8 +101,9 @@ fn inked(weights: vec3<f32>, heights: vec3<f32>, flags: u32, inside: f32, bounda
         let opposite = (k + 2u) % 3u;
         let away = weights[opposite] * heights[opposite];
         let on_boundary = (flags >> k & 8u) != 0u;
-        // Half of a line is in the neighbour. A boundary's is twice as wide.
-        let half = select(0.5, 1.0, on_boundary) * look.line;
+        // Half of a line is in the neighbour. A boundary's is twice as wide, but not beyond its
+        // triangle: the next one may touch the boundary with a corner only.
+        let half = select(0.5 * look.line, min(look.line, 0.5 * low + 0.5), on_boundary);
         let ink = select(inside * pale, boundary * max(pale, 0.5), on_boundary);
         most = max(most, ink * clamp(half + 0.5 - away, 0.0, 1.0));
     }

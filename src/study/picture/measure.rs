@@ -14,7 +14,7 @@ pub struct Values {
     pub mean: f64,
     /// The largest; 0 of none.
     pub most: f64,
-    /// What one in a thousand exceeds.
+    /// What one in a hundred exceeds.
     pub usual: f64,
 }
 
@@ -29,7 +29,7 @@ impl Values {
         };
         let count = sorted.len();
         let mean = sorted.iter().sum::<f64>() / count as f64;
-        let usual = sorted[(count - 1) - (count - 1) / 1000];
+        let usual = sorted[(count - 1) - (count - 1) / 100];
         Self { count, least, mean, most, usual }
     }
 
@@ -99,8 +99,8 @@ mod tests {
         assert_eq!((both.count, both.mean, both.most), (4, 4.0, 9.0));
         let area = scale(Style::Area, &Values::of(&[0.02, 350.0]));
         assert!((area.least - 0.1).abs() < 1e-9 && (area.most - 1000.0).abs() < 1e-9);
-        // One outlier in two thousand moves no scale.
-        let mut many = vec![0.3; 2000];
+        // One outlier in two hundred moves no scale.
+        let mut many = vec![0.3; 200];
         many.push(1e3);
         assert_eq!(scale(Style::Error, &Values::of(&many)).most, 0.5);
         assert_eq!([0.1, 0.11, 0.5, 7.0, 0.0].map(round_up), [0.1, 0.2, 0.5, 10.0, 1.0]);
