@@ -1,4 +1,7 @@
-//! `compare`: a trace through several units, their numbers side by side.
+//! `compare`: a trace through several units, their numbers side by side, and their pictures.
+
+#[cfg(feature = "gpu")]
+mod pictures;
 
 use super::config::Laid;
 use super::print;
@@ -39,17 +42,40 @@ pub(crate) struct Args {
     /// Write the results into this folder; one that exists is replaced only if compare wrote it
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[cfg(feature = "gpu")]
+    #[command(flatten)]
+    wanted: Wanted,
+}
+
+/// Which pictures are wanted.
+#[cfg(feature = "gpu")]
+#[derive(Debug, clap::Args)]
+struct Wanted {
+    /// Also draw the units' triangles side by side, in pictures.png (with --out)
+    #[arg(long, value_name = "S", num_args = 0..=1, require_equals = true, requires = "out",
+          default_missing_value = "wireframe", value_parser = super::render::styles())]
+    pictures: Option<tessim::study::picture::Style>,
+    /// The frame that is drawn, from 0 [default: 0]
+    #[arg(long, value_name = "N", requires = "pictures")]
+    frame: Option<u64>,
+    /// Width and height of each unit's picture in pixels [default: 640 along the longer side]
+    #[arg(long, value_name = "WxH", requires = "pictures", value_parser = super::render::size)]
+    size: Option<[u32; 2]>,
 }
 
 /// What the folder holds.
 const FILES: [&str; 3] = ["compare.csv", "config.toml", "summary.json"];
+
+/// What it may hold besides.
+const PICTURES: [&str; 1] = ["pictures.png"];
 
 pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let configs = args.configurations()?;
     let pool = pool(args.threads)?;
     let mut trace = Replay::open(&args.trace)?;
     let folder = args.out.as_deref();
-    let folder = folder.map(|out| ResultFolder::of_study(out, &FILES, &CSV_HEADER)).transpose()?;
+    let begin = |out| ResultFolder::of_study_with(out, &FILES, &PICTURES, &CSV_HEADER);
+    let folder = folder.map(begin).transpose()?;
     let mut progress = (configs[0].unit, Progress::new(quiet, ""));
     let watch = |unit: tessim::config::Unit, command: &_| {
         if progress.0 != unit {
@@ -65,6 +91,13 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
         folder.write("compare.csv", compare::csv(&reports).as_bytes())?;
         folder.write("config.toml", configs[0].to_commented_toml().as_bytes())?;
         folder.write("summary.json", summary::comparison(&reports, &provenance).as_bytes())?;
+        #[cfg(feature = "gpu")]
+        if let Some(style) = args.wanted.pictures {
+            let (frame, size) = (args.wanted.frame.unwrap_or(0), args.wanted.size);
+            let sheet = || pictures::sheet(&mut trace, &configs, frame, style, size);
+            let sheet = pool.install(sheet)?;
+            folder.write(PICTURES[0], &sheet)?;
+        }
         folder.commit()?;
     }
     if quiet { Ok(()) } else { print::print(&compare::text(&reports, &provenance.title)) }

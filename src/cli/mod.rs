@@ -15,6 +15,8 @@ mod info;
 mod pattern;
 mod print;
 mod progress;
+#[cfg(feature = "gpu")]
+mod render;
 mod run;
 mod scene;
 mod study;
@@ -53,6 +55,8 @@ enum Command {
     Import(import::Args),
     Pattern(pattern::Args),
     Study(study::Args),
+    #[cfg(feature = "gpu")]
+    Render(render::Args),
 }
 
 /// Runs the command that the process was started with.
@@ -90,6 +94,8 @@ impl Cli {
             Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
             Command::Study(args) => study::run(args, self.quiet),
+            #[cfg(feature = "gpu")]
+            Command::Render(args) => render::run(args),
         }
     }
 }

@@ -45,7 +45,7 @@ pub enum Kernel {
     /// What both and the tessellator did.
     D3d11Count,
     /// Singles made of integers, one operation at a time, for comparisons.
-    Single,
+    SingleOperations,
     /// Levels of resolution of the surface-level shader.
     EscLevel,
     /// Its tests.
@@ -115,7 +115,7 @@ impl Kernel {
             Self::D3d11Hull => &["single.wgsl", "d3d11_hull.wgsl"],
             Self::D3d11Domain => &["single.wgsl", "d3d11_domain.wgsl"],
             Self::D3d11Count => &["d3d11_count.wgsl"],
-            Self::Single => &["single.wgsl", "single_operations.wgsl"],
+            Self::SingleOperations => &["single.wgsl", "single_operations.wgsl"],
             Self::EscLevel => &["esc_pattern.wgsl", "esc_level.wgsl"],
             Self::Esc => &["esc_pattern.wgsl", "esc.wgsl"],
             Self::EscMesh => {

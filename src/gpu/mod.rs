@@ -13,6 +13,7 @@ mod kernel;
 mod level;
 mod made;
 mod record;
+pub mod render;
 mod settings;
 pub mod surface;
 

@@ -22,7 +22,11 @@ enum Kind {
     /// The files of a run.
     Run,
     /// The files of a study, the first of them a CSV with this first line.
-    Study { names: &'static [&'static str], header: &'static [&'static str] },
+    Study {
+        names: &'static [&'static str],
+        sometimes: &'static [&'static str],
+        header: &'static [&'static str],
+    },
 }
 
 /// A result folder under construction.
@@ -57,8 +61,24 @@ impl ResultFolder {
         names: &'static [&'static str],
         header: &'static [&'static str],
     ) -> Result<Self> {
+        Self::of_study_with(target, names, &[], header)
+    }
+
+    /// As [`Self::of_study`]; files of the names `sometimes` may be in it too.
+    ///
+    /// # Errors
+    /// As [`Self::create`].
+    ///
+    /// # Panics
+    /// When there is no first name.
+    pub fn of_study_with(
+        target: &Path,
+        names: &'static [&'static str],
+        sometimes: &'static [&'static str],
+        header: &'static [&'static str],
+    ) -> Result<Self> {
         assert!(!names.is_empty(), "a study writes its CSV at least");
-        Self::begin(target, Kind::Study { names, header })
+        Self::begin(target, Kind::Study { names, sometimes, header })
     }
 
     fn begin(target: &Path, kind: Kind) -> Result<Self> {
@@ -128,7 +148,7 @@ fn replaceable(target: &Path, kind: Kind) -> Result<()> {
     let entries = entries.map_err(|error| Error::system(target, error))?;
     let (always, sometimes): (&[&str], &[&str]) = match &kind {
         Kind::Run => (&ALWAYS, &SOMETIMES),
-        Kind::Study { names, .. } => (names, &[]),
+        Kind::Study { names, sometimes, .. } => (names, sometimes),
     };
     let ours = |name: &str| always.contains(&name) || sometimes.contains(&name);
     for name in always {
@@ -147,7 +167,7 @@ fn replaceable(target: &Path, kind: Kind) -> Result<()> {
             let mark = "summary.json";
             (mark, super::summary::is_summary(&target.join(mark)))
         }
-        Kind::Study { names, header } => {
+        Kind::Study { names, header, .. } => {
             let name = names[0];
             let text = fs::read_to_string(target.join(name)).unwrap_or_default();
             (name, text.lines().next() == Some(&header.join(",")))

@@ -13,6 +13,8 @@ pub mod folder;
 pub mod mesh;
 pub mod obj;
 pub mod occupancy;
+#[cfg(feature = "gpu")]
+pub mod picture;
 pub mod ply;
 pub mod space;
 pub mod summary;

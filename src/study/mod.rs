@@ -12,5 +12,7 @@ pub mod compare;
 pub mod esc;
 mod markdown;
 pub mod motion;
+#[cfg(feature = "gpu")]
+pub mod picture;
 mod random;
 pub mod walk;

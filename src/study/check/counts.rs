@@ -2,7 +2,7 @@
 
 use super::ledger::Ledger;
 use crate::gpu::Name;
-use rtl_model::counter::{Block, Counters, DECLARATIONS};
+use rtl_model::counter::{Counters, DECLARATIONS};
 use std::collections::BTreeMap;
 
 /// Counters of blocks behind the port that the second implementation does not have: block, name,
@@ -34,12 +34,4 @@ pub(super) fn compare(
             || "all patches of the frame".to_owned(),
         );
     }
-}
-
-/// The counters of a unit's blocks that follow the port.
-pub fn behind_the_port(blocks: &[Block]) -> impl Iterator<Item = Name> {
-    DECLARATIONS
-        .iter()
-        .filter(|d| d.block >= Block::Clip && d.block < Block::Unit && blocks.contains(&d.block))
-        .map(|d| (d.block.name(), d.name))
 }

@@ -1,0 +1,56 @@
+//! Tiles, batches of triangles, and sizes: none changes a byte.
+
+use super::support::{device, look, shot};
+use tessim::gpu::render::draw;
+use tessim::gpu::{Backend, Device, Sources};
+use tessim::study::picture::{STYLES, Style};
+
+#[test]
+fn a_picture_in_tiles_is_the_one_drawn_at_once() {
+    let Some(device) = device() else { return };
+    let size = [150, 121];
+    // The second of these goes through the near plane in its last frames.
+    for (name, frame, unit) in [("teapot", 0, "hybrid"), ("zoom", 7, "esc"), ("fan", 0, "sfarti")] {
+        let shot = shot(name, frame, &[&format!("unit={unit}")]);
+        for style in STYLES {
+            let (facets, look) = (shot.facets(style, size), look(&shot, style, size));
+            let whole = draw(device, &facets, &look, size, None).unwrap();
+            for tile in [31, 64, 149] {
+                let tiled = draw(device, &facets, &look, size, Some(tile)).unwrap();
+                let differ = whole.rgb.iter().zip(&tiled.rgb).filter(|(a, b)| a != b).count();
+                assert_eq!(differ, 0, "{name} {style:?} in tiles of {tile}");
+            }
+        }
+    }
+}
+
+#[test]
+fn triangles_in_small_batches_give_the_same_picture() {
+    let Ok(mut limited) = Device::open(Backend::Auto, Sources::default()) else { return };
+    let Some(device) = device() else { return };
+    limited.limit_words(36 * 100);
+    let shot = shot("teapot", 0, &[]);
+    let size = [96, 77];
+    let (facets, look) = (shot.facets(Style::Area, size), look(&shot, Style::Area, size));
+    assert!(facets.len() > 1000);
+    let [whole, parts] =
+        [device, &limited].map(|device| draw(device, &facets, &look, size, None).unwrap());
+    assert!(whole == parts);
+    assert!(whole.rgb.chunks(3).any(|pixel| pixel != look.background));
+}
+
+#[test]
+fn large_pictures_are_possible_and_larger_ones_refused() {
+    let Some(device) = device() else { return };
+    let shot = shot("teacup", 0, &["level.criterion=fixed", "level.level=2"]);
+    let look = look(&shot, Style::Shaded, [16_384, 40]);
+    let facets = shot.facets(Style::Shaded, [16_384, 40]);
+    let wide = draw(device, &facets, &look, [16_384, 40], None).unwrap();
+    // In the middle there is the cup, at the ends nothing.
+    assert_eq!(wide.pixel(0, 20), look.background);
+    assert_eq!(wide.pixel(16_383, 20), look.background);
+    assert!((8_100..8_280).any(|x| wide.pixel(x, 20) != look.background));
+    for size in [[16_385, 1], [1, 0]] {
+        assert_eq!(draw(device, &[], &look, size, None).unwrap_err().exit_code(), 2);
+    }
+}
