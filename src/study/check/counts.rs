@@ -2,7 +2,7 @@
 
 use super::ledger::Ledger;
 use crate::gpu::Name;
-use rtl_model::counter::{Counters, DECLARATIONS};
+use rtl_model::counter::{Block, Counters, DECLARATIONS};
 use std::collections::BTreeMap;
 
 /// Counters of blocks behind the port that the second implementation does not have: block, name,
@@ -15,23 +15,33 @@ pub fn compared(block: &str, name: &str) -> bool {
     !NOT_COMPARED.iter().any(|&(b, n, _)| b == block && n == name)
 }
 
-/// Compares what was counted in a frame, under the names of the second.
+/// Compares what was counted in a frame: every counter of the unit's blocks behind the port. One
+/// that the second implementation should have and has not is a difference.
 pub(super) fn compare(
     ledger: &mut Ledger,
     frame: usize,
+    blocks: &[Block],
     cpu: &Counters,
     gpu: &BTreeMap<Name, u64>,
 ) {
-    for (&(block, name), &value) in gpu {
-        let found = DECLARATIONS.iter().find(|d| d.block.name() == block && d.name == name);
-        let declaration = found.expect("a count is of a counter that is declared");
-        let split = |value: u64| [value as u32, (value >> 32) as u32];
+    let behind = DECLARATIONS.iter().filter(|d| {
+        let name = (d.block.name(), d.name);
+        let theirs = d.block >= Block::Hull && d.block < Block::Unit && blocks.contains(&d.block);
+        gpu.contains_key(&name) || (theirs && compared(name.0, name.1))
+    });
+    let split = |value: u64| [value as u32, (value >> 32) as u32];
+    let mut found = 0;
+    for declaration in behind {
+        let (block, name) = (declaration.block.name(), declaration.name);
+        let counted = gpu.get(&(block, name)).map(|&value| split(value));
+        found += usize::from(counted.is_some());
         ledger.compare(
             ("unit", "counters"),
             &split(cpu.get(declaration.counter)),
-            &split(value),
+            counted.as_ref().map_or(&[], |words| &words[..]),
             || format!("frame {frame}, {block} {name}"),
             || "all patches of the frame".to_owned(),
         );
     }
+    assert_eq!(found, gpu.len(), "a count is of a counter that is declared");
 }

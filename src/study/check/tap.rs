@@ -79,7 +79,7 @@ impl<'a> Tap<'a> {
     pub(super) fn finish(mut self, report: &Report) -> Result<(Ledger, Duration)> {
         self.flush()?;
         for (number, (frame, counts)) in report.frames.iter().zip(&self.counts).enumerate() {
-            counts::compare(&mut self.ledger, number, &frame.counters, counts);
+            counts::compare(&mut self.ledger, number, report.blocks, &frame.counters, counts);
         }
         Ok((self.ledger, self.gpu))
     }
