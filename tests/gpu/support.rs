@@ -21,7 +21,8 @@ pub(crate) fn device() -> Option<&'static Device> {
     device.as_ref()
 }
 
-fn sources() -> Sources {
+/// The kernels that are compared.
+pub(crate) fn sources() -> Sources {
     match std::env::var_os("TESSIM_KERNELS") {
         Some(folder) => Sources::from_folder(Path::new(&folder)).expect("a folder of kernels"),
         None => Sources::default(),
