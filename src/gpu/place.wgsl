@@ -1,5 +1,5 @@
-// Place: levels or dyadic lists in, a patch's plan out: segments, reciprocals, and what its vertices
-// and triangles cost (Moreton 2001 by way of Munkberg et al. 2008, section 2; Sfarti et al. 2005,
+// Place: levels or dyadic lists in, a patch's plan out: segments, reciprocals, and what its
+// vertices and triangles cost (Moreton 2001 by way of Munkberg et al. 2008, section 2; Sfarti et al. 2005,
 // section 6). No list is written out: an entry's parameter has a closed form where it is needed.
 // The counts are formulas too; the first implementation counts what it does.
 
