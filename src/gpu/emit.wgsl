@@ -47,8 +47,9 @@ fn pixel(c: I64, size: u32, w: I64) -> vec2<u32> {
     }
     let twice = shl64(rest, 1u);
     let past = !below64(twice, divisor);
-    let even = all(twice == divisor) && tie(settings.emit_rounding, (quotient & 1u) != 0u, negative);
-    let up = settings.emit_rounding != FLOOR && past && !even;
+    let mode = settings.emit_rounding;
+    let down = all(twice == divisor) && tie(mode, (quotient & 1u) != 0u, negative);
+    let up = mode != FLOOR && past && !down;
     return vec2<u32>(quotient + u32(up), 1u);
 }
 

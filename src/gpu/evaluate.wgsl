@@ -5,8 +5,8 @@
 // coordinate, in place, with one product an interpolation: a 2^16 + (b - a) t, whose terms may pass
 // 64 bits and whose sum does not.
 //
-// What belongs to a curve and not to a vertex is done before, once: `lines` keeps the control points
-// and differences of the edges and of the net's columns, `rows` those of the interior rows.
+// What belongs to a curve and not to a vertex is done before, once: `fixed_lines` keeps the control
+// points and differences of the edges and of the net's columns, `rows` those of interior rows.
 
 // a: 1 where lists are masks. b and c: the first patch, and the one behind the last. d, e: numbers
 // of their first line and vertex.

@@ -37,7 +37,8 @@ struct Tangent {
     along: I64,
 }
 
-// Of a cubic at t: the last two points of the triangle, whose difference it is, and the one between.
+// Of a cubic at t: the last two points of the triangle, whose difference it is, and the one
+// between.
 fn tangent(control: array<I64, 4>, t: u32) -> Tangent {
     var points = control;
     var along = NONE64;

@@ -1,7 +1,7 @@
-// Place: levels or dyadic lists in, a patch's plan out: segments, reciprocals, and what its vertices
-// and triangles cost (Moreton 2001 by way of Munkberg et al. 2008, section 2; Sfarti et al. 2005,
-// section 6). No list is written out: an entry's parameter has a closed form where it is needed.
-// The counts are formulas too; the first implementation counts what it does.
+// Place: levels or dyadic lists in, a patch's plan out: segments, reciprocals, and what its
+// vertices and triangles cost (Moreton 2001 by way of Munkberg et al. 2008, section 2; Sfarti et
+// al. 2005, section 6). No list is written out: an entry's parameter has a closed form where it is
+// needed. The counts are formulas too; the first implementation counts what it does.
 
 // a: 1 where lists are masks, 0 where they are levels. b: 1 where the interior takes the greater
 // level of the two edges along it, whatever it was given.

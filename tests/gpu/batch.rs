@@ -111,7 +111,7 @@ impl Batch {
         config.evaluate.rounding = random.of(Rounding::ALL);
         config.evaluate.scheme = random.of([Scheme::Forward, Scheme::Mixed, Scheme::DeCasteljau]);
         // From the least to the most that fit.
-        let guards = [1, random.integer(1, 60 - width), 60 - width, config.guard()];
+        let guards = [1, 1, random.integer(1, 60 - width), 60 - width, config.guard()];
         config.evaluate.guard = Some(random.of(guards));
         let view = support::view(width);
         let settings = Settings::new(&config, &view, view.position);
@@ -126,11 +126,12 @@ impl Batch {
         for _ in 0..count {
             let kind = random.of(Kind::ALL);
             let mut patch = random::patch(random, kind, view.position.max());
-            // At the ends of the range, where points leave it.
+            // At the ends of the range, where few guard bits let points leave it.
             if random.integer(0, 3) == 0 {
-                let max = view.position.max();
-                let ends = patch.points.map(|p| p.map(|c| if c < 0 { -max } else { max }));
-                patch.points = ends;
+                let signs: [i64; 4] = std::array::from_fn(|_| random.of([-1, 1]));
+                let mut near = || view.position.max() - i64::from(random.integer(0, 1));
+                let corner = |_: usize| signs.map(|sign| sign * near());
+                patch.points = std::array::from_fn(corner);
             }
             batch.patches.push(patch);
             batch.components.push(random.integer(0, 9));

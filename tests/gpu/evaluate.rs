@@ -16,7 +16,7 @@ fn vertices_are_evaluated_alike() {
     let (mut overflows, mut batches) = (0, [0; 3]);
     for width in 8..=48 {
         for source in [Source::Levels, Source::EdgeLevels, Source::Masks] {
-            let most = random.of([4, 16, 128]);
+            let most = random.of([4, 16, 128, 128]);
             let count = (300 / most as usize).max(4) * support::effort();
             let batch = Batch::draw(&mut random, width, source, count, most);
             let uploaded = batch.place(device);
@@ -59,7 +59,7 @@ fn vertices_are_evaluated_alike() {
         }
     }
     println!("{overflows} overflows; batches by scheme {batches:?}");
-    assert!(overflows > 1000, "points leave the range");
+    assert!(overflows > 100, "points leave the range");
     assert!(batches.iter().all(|&n| n > 10), "every scheme");
     support::settle(&ledger, 100);
 }
@@ -72,7 +72,12 @@ fn tangent_planes_are_evaluated_alike() {
     let mut vanished = 0;
     for width in 8..=48 {
         let count = 8 * support::effort();
-        let batch = Batch::draw(&mut random, width, Source::Levels, count, 5);
+        let mut batch = Batch::draw(&mut random, width, Source::Levels, count, 5);
+        // Sums of a few powers of two, whose ties are common.
+        for patch in batch.patches.iter_mut().step_by(2) {
+            let mut power = || random.of([-1, 0, 1]) << random.integer(0, width - 2);
+            patch.points = patch.points.map(|p| p.map(|_| power()));
+        }
         let uploaded = batch.place(device);
         let (placed, all) = (&uploaded.placed, 0..count);
         let expected = batch.expected();

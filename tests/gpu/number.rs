@@ -109,7 +109,9 @@ const OPERATIONS: [Operation; 28] = [
     Operation { name: "is_positive128", operands: Any128, result: |a, _, _| flag(a.as_i128() > 0) },
     Operation { name: "is_positive256", operands: Any256, result: |a, _, _| flag(a > 0) },
     Operation { name: "mul_mixed", operands: Any128, result: |a, b, _| I256::from(low(a)) * b },
-    Operation { name: "select128", operands: Operands::SetBit, result: |a, b, _| set_bit(a, b.as_u32()).into() },
+    Operation { name: "select128", operands: Operands::SetBit, result: |a, b, _| {
+        set_bit(a, b.as_u32()).into()
+    } },
     Operation { name: "count_below128", operands: Operands::Shift(128, 129), result: |a, b, _| {
         let below = (U256::ONE << b.as_u32()) - 1;
         (a.as_u256() & below).count_ones().into()

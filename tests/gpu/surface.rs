@@ -13,7 +13,7 @@ use rtl_model::{clip, number};
 use std::collections::HashMap;
 use tessim::config::{BackfaceMethod, Config, Normals, Scheme, Termination, Union, Unit};
 use tessim::gpu::surface::{Source, Surface, surface};
-use tessim::gpu::{Backend, Device, Made, Name, Settings, Sources, push_patch};
+use tessim::gpu::{Backend, Device, Made, Name, Settings, push_patch};
 use tessim::study::check::Ledger;
 
 const UNITS: [Unit; 4] = [Unit::Hybrid, Unit::Triangles, Unit::Moreton, Unit::Sfarti];
@@ -279,7 +279,7 @@ fn a_batch_in_pieces_is_the_same() {
     if support::device().is_none() {
         return;
     }
-    let mut small = Device::open(Backend::Auto, Sources::default()).unwrap();
+    let mut small = Device::open(Backend::Auto, support::sources()).unwrap();
     // A patch of level 16 has a mesh of some 5000 words.
     small.limit_words(12_000);
     let mut random = Random::new(79);
