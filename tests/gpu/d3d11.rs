@@ -95,7 +95,7 @@ fn patterns_agree_in_every_domain_partitioning_and_output() {
     let mut random = Random::new(1101);
     for partitioning in PARTITIONINGS {
         let factors: Vec<u32> =
-            (0..150 * support::effort()).flat_map(|_| draw(&mut random)).collect();
+            (0..100 * support::effort()).flat_map(|_| draw(&mut random)).collect();
         compare(&mut ledger, device, &factors, partitioning);
     }
     support::settle(&ledger, 1_000_000);
@@ -107,7 +107,7 @@ fn patterns_agree_for_every_count_of_segments() {
     let mut ledger = Ledger::default();
     let mut factors = Vec::new();
     for a in 1..=64 {
-        for b in [1, 2, 3, a, 65 - a, 64] {
+        for b in [1, 3, a, 64] {
             let all: [i32; FACTORS] = [b, a, 65 - a, (a * b) % 64 + 1, a, b];
             factors.extend(all.map(|n| (n as f32).to_bits()));
         }
