@@ -16,6 +16,7 @@ use tessim::config::{
 use tessim::gpu::{Backend, Device, Esc, Made, Settings, decide, esc, push_patch, words};
 use tessim::study::check::Ledger;
 
+mod corners;
 mod expected;
 
 use expected::{Expected, threshold};
