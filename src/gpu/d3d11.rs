@@ -17,7 +17,7 @@ mod starts;
 
 pub use pattern::{Domain, FACTORS, Output, Patterns, Tessellation, patterns};
 
-use super::{Buffer, Device, Kernel, Made, PATCH, Settings};
+use super::{Buffer, Device, Kernel, LEVELS, Made, PATCH, Settings};
 use crate::config::Config;
 use crate::error::Result;
 use rtl_model::number::Format;
@@ -25,9 +25,6 @@ use shape::Shape;
 
 /// Words of a patch's control points as the shaders have them: x, y, z, w of 16, f32 bits.
 pub const SHADED: usize = 64;
-
-/// Words of a patch's levels: six in 16.16, clamped, near, overflows, splits, two spare.
-pub const LEVELS: usize = 12;
 
 /// Words of a patch's fate.
 const FATE: usize = 4;
@@ -64,7 +61,7 @@ pub struct Chosen<'a> {
     pub levels: &'a [u32],
 }
 
-/// A batch through the whole unit, but for the divide.
+/// A batch through the whole unit.
 ///
 /// # Errors
 /// What the device objects to.
@@ -93,7 +90,7 @@ fn whole(device: &Device, work: &D3d11<'_>, chosen: Option<Chosen<'_>>) -> Resul
     let widest = PATCH.max(shape::net_words(work.config)).max(counts::ROW);
     let most = (device.words_max() / widest).clamp(1, BATCH_MAX);
     let mut made = Made { vertex_starts: vec![0], triangle_starts: vec![0], ..Made::default() };
-    let mut sums = [0; counts::ROW];
+    let mut sums = [0; counts::SUMS];
     for first in (0..patches).step_by(most) {
         let end = patches.min(first + most);
         let batch = Batch::new(device, work, first..end, chosen)?;
@@ -132,7 +129,7 @@ impl<'a> Batch<'a> {
                 let fates = device.empty(FATE * patches.len())?;
                 let settings = work.settings.of(patches.len());
                 device.run(Kernel::Clip, "clip", &settings, &[&words, &fates])?;
-                device.run(Kernel::Backface, "backface", &settings, &[&words, &fates])?;
+                crate::gpu::backface(device, &settings, &words, &fates)?;
                 fates
             }
         };
@@ -147,10 +144,11 @@ impl<'a> Batch<'a> {
     }
 
     /// Appends what comes of it, and adds up what is counted.
-    fn run(&self, made: &mut Made, sums: &mut [u64; counts::ROW]) -> Result<()> {
+    fn run(&self, made: &mut Made, sums: &mut [u64; counts::SUMS]) -> Result<()> {
         let rows = self.device.empty(counts::ROW * self.len())?;
         let factors = self.hull(&rows)?;
-        Shape::new(self, &factors, &rows)?.write(made)?;
+        let homogeneous = Shape::new(self, &factors, &rows)?.write(made)?;
+        sums[counts::ROW] += homogeneous;
         made.fates.extend(self.device.read(&self.fates, 0, FATE * self.len())?);
         counts::add(self.device, &rows, self.len(), sums)
     }

@@ -125,6 +125,7 @@ fn append(made: &mut Made, part: Made) {
     shifted(&mut made.triangle_starts, &part.triangle_starts);
     made.fates.extend(part.fates);
     made.vertices.extend(part.vertices);
+    made.screen.extend(part.screen);
     made.triangles.extend(part.triangles);
     for (name, count) in part.counts {
         match made.counts.iter_mut().find(|(other, _)| *other == name) {

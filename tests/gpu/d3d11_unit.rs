@@ -15,8 +15,8 @@ use rtl_model::patch::{Depth, Level, Levels, ONE, Patch, Triangle, Vertex, View}
 use rtl_model::{clip, port};
 use tessim::config::d3d11::Form;
 use tessim::config::{Arithmetic, Config, DomainKind, FactorPolicy, Unit};
-use tessim::gpu::d3d11::{Chosen, D3d11, LEVELS, from_hull};
-use tessim::gpu::{Backend, Device, Made, Settings, Sources, VERTEX, push_patch, words};
+use tessim::gpu::d3d11::{Chosen, D3d11, d3d11, from_hull};
+use tessim::gpu::{Backend, Device, LEVELS, Made, Settings, Sources, VERTEX, push_patch, words};
 use tessim::shader::domain::{self, Evaluator, Fixed, Orientations, Single};
 use tessim::shader::hull::{self, Adaptive};
 use tessim::sink::{FrameInfo, PatchMesh, Sink};
@@ -416,4 +416,33 @@ fn the_unit_makes_the_same_where_buffers_are_small() {
     let want = batch.made(device, &config, &view);
     assert!(want.triangles.len() > 1000 && want.counts.iter().any(|(_, count)| *count > 1000));
     assert_eq!(batch.made(&small, &config, &view), want);
+}
+
+#[test]
+fn the_unit_by_itself_chooses_what_it_is_given_otherwise() {
+    let Some(device) = support::device() else { return };
+    let mut random = Random::new(1108);
+    let mut triangles = 0;
+    for name in ["teaspoon", "teapot"] {
+        for _ in 0..3 {
+            let config = config(&mut random);
+            let (mut batch, mut view) = (Batch::default(), None);
+            walk::walk(name, &config, |_, drawn| {
+                view = Some(drawn.frame.view);
+                batch.push(&config, &drawn.frame.view, &drawn.patch, &drawn.state, 0);
+                batch.shaded.extend(drawn.shaded.as_flattened().iter().map(|c| c.to_bits()));
+            });
+            let view = view.expect("a trace draws");
+            let want = batch.made(device, &config, &view);
+            let made = d3d11(device, &batch.work(&config, &view)).unwrap();
+            triangles += made.triangles.len();
+            // The planes that points are outside of are clip's own affair.
+            let fates = |made: &Made| made.fates.chunks(4).map(|f| f[..3].to_vec()).collect();
+            let (want_fates, got): (Vec<_>, Vec<_>) = (fates(&want), fates(&made));
+            assert_eq!(got, want_fates, "{name}");
+            assert_eq!(made.counts, want.counts, "{name}");
+            assert!(made.vertices == want.vertices && made.triangles == want.triangles, "{name}");
+        }
+    }
+    assert!(triangles > 1000, "only {triangles} words of triangles");
 }

@@ -21,7 +21,6 @@ pub(crate) fn device() -> Option<&'static Device> {
     device.as_ref()
 }
 
-<<<<<<< HEAD
 /// A device that no other test dispatches on.
 pub(crate) fn another(backend: Backend) -> tessim::error::Result<Device> {
     Device::open(backend, sources())
@@ -34,11 +33,8 @@ pub(crate) fn backend() -> Backend {
     found.unwrap_or_else(|| panic!("TESSIM_BACKEND: found {name}, expected auto, vulkan or gl"))
 }
 
-fn sources() -> Sources {
-=======
 /// The kernels that are compared.
 pub(crate) fn sources() -> Sources {
->>>>>>> A
     match std::env::var_os("TESSIM_KERNELS") {
         Some(folder) => Sources::from_folder(Path::new(&folder)).expect("a folder of kernels"),
         None => Sources::default(),

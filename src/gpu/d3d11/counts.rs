@@ -7,6 +7,10 @@ use crate::gpu::{Buffer, Device, Kernel, Name, Settings};
 /// Words of a patch's row.
 pub(super) const ROW: usize = 30;
 
+/// Sums in all: those of the columns, and of vertices that stay homogeneous.
+pub(super) const SUMS: usize = ROW + 1;
+const HOMOGENEOUS: usize = ROW;
+
 /// Bytes of a net: 16 vec4.
 const NET_BYTES: u64 = 16 * 16;
 
@@ -56,7 +60,7 @@ pub(super) fn add(
     device: &Device,
     rows: &Buffer,
     count: usize,
-    sums: &mut [u64; ROW],
+    sums: &mut [u64; SUMS],
 ) -> Result<()> {
     let mut settings = Settings::default().of(ROW);
     settings.own[..2].copy_from_slice(&[count as u32, ROW as u32]);
@@ -69,9 +73,9 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The counters: all that the unit counts for patches, but for what the divide finds, what the hull
+/// The counters: all that the unit counts for patches, but for what the hull
 /// shader reads, and sums of memory that other traffic has a part in.
-pub(super) fn of(sums: &[u64; ROW], config: &Config) -> Vec<(Name, u64)> {
+pub(super) fn of(sums: &[u64; SUMS], config: &Config) -> Vec<(Name, u64)> {
     let mut counts: Vec<_> = COUNTERS.map(|(at, name)| (name, sums[at])).into();
     let patches = sums[0] + sums[1];
     counts.push((("clip", "patches.in"), patches));
@@ -86,7 +90,7 @@ pub(super) fn of(sums: &[u64; ROW], config: &Config) -> Vec<(Name, u64)> {
     counts
 }
 
-fn domain(sums: &[u64; ROW], config: &Config, counts: &mut Vec<(Name, u64)>) {
+fn domain(sums: &[u64; SUMS], config: &Config, counts: &mut Vec<(Name, u64)>) {
     let domain = &config.domain;
     let width = u64::from(domain.width);
     let component = config.attributes.component_bytes();
@@ -117,7 +121,7 @@ fn domain(sums: &[u64; ROW], config: &Config, counts: &mut Vec<(Name, u64)>) {
 }
 
 /// What goes through memory between the shaders, or stays on the chip.
-fn memory(sums: &[u64; ROW], config: &Config, counts: &mut Vec<(Name, u64)>) {
+fn memory(sums: &[u64; SUMS], config: &Config, counts: &mut Vec<(Name, u64)>) {
     let through = |count: u64| if config.hull.to_memory { count } else { 0 };
     let bursts = sums[READ_BURSTS] + sums[WRITTEN_BURSTS];
     counts.push((("hull", "bytes.out.on_chip"), sums[WRITTEN] - through(sums[WRITTEN])));
@@ -126,7 +130,7 @@ fn memory(sums: &[u64; ROW], config: &Config, counts: &mut Vec<(Name, u64)>) {
     counts.push((("memory", "bursts.patches"), through(bursts)));
 }
 
-fn emit(sums: &[u64; ROW], config: &Config, counts: &mut Vec<(Name, u64)>) {
+fn emit(sums: &[u64; SUMS], config: &Config, counts: &mut Vec<(Name, u64)>) {
     let emit = &config.emit;
     let attributes = sums[ATTRIBUTES] * config.attributes.component_bytes();
     let indices = 3 * sums[TRIANGLES] * u64::from(emit.index_bytes);
@@ -135,4 +139,5 @@ fn emit(sums: &[u64; ROW], config: &Config, counts: &mut Vec<(Name, u64)>) {
     counts.push((("emit", "triangles"), sums[TRIANGLES]));
     counts.push((("emit", "bytes.attributes"), attributes));
     counts.push((("emit", "bytes"), bytes));
+    counts.push((("emit", "vertices.to_clipper"), sums[HOMOGENEOUS]));
 }

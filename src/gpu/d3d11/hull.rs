@@ -1,7 +1,7 @@
 //! Hull: levels, or control points in clip space, in; the factors that the hull shader writes out.
 
+use super::Batch;
 use super::pattern::{FACTORS, partitioning};
-use super::{Batch, LEVELS};
 use crate::config::FactorPolicy;
 use crate::error::Result;
 use crate::gpu::{Buffer, Kernel, Settings};
@@ -42,12 +42,9 @@ impl Batch<'_> {
         if let Some(levels) = &self.levels {
             return Ok(levels.clone());
         }
-        let levels = self.device.empty(LEVELS * self.len())?;
         self.device.run(Kernel::D3d11Hull, "reach", settings, &[&self.words])?;
         let settings = self.work.settings.of(self.len());
-        let buffers = [&self.words, &self.fates, &levels];
-        self.device.run(Kernel::Level, "level", &settings, &buffers)?;
-        Ok(levels)
+        crate::gpu::level(self.device, &settings, &self.words, &self.fates)
     }
 
     /// How many vertices the distance test inserts on each curve.

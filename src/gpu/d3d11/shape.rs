@@ -6,6 +6,7 @@ use super::pattern::{Domain, Laid, Output, Tessellation};
 use super::starts::ranges;
 use crate::config::{Arithmetic, Config, Form};
 use crate::error::Result;
+use crate::gpu::surface::{EVENTS, emit};
 use crate::gpu::{Buffer, Kernel, Made, Settings, VERTEX, rounding};
 use std::ops::Range;
 
@@ -60,18 +61,31 @@ impl<'a> Shape<'a> {
         Ok(Self { batch, rows, laid, nets, of_patch, settings })
     }
 
-    /// Appends vertices and triangles, and counts them.
-    pub(super) fn write(&self, made: &mut Made) -> Result<()> {
+    /// Appends vertices and triangles, and counts them. Returns the vertices that stay homogeneous.
+    pub(super) fn write(&self, made: &mut Made) -> Result<u64> {
         self.laid.points.append_to(&mut made.vertex_starts);
         self.laid.primitives.append_to(&mut made.triangle_starts);
         let lists = [(&self.laid.points, VERTEX), (&self.laid.primitives, 3)];
+        let mut homogeneous = 0;
         for range in ranges(self.batch.device.words_max(), &lists) {
-            self.write_range(&range, made)?;
+            homogeneous += self.write_range(&range, made)?;
         }
-        Ok(())
+        Ok(homogeneous)
     }
 
-    fn write_range(&self, range: &Range<usize>, made: &mut Made) -> Result<()> {
+    /// Appends screen positions. Returns the vertices that stay homogeneous.
+    fn divide(&self, vertices: &Buffer, count: usize, made: &mut Made) -> Result<u64> {
+        let device = self.batch.device;
+        if !self.batch.work.config.divides() {
+            return Ok(0);
+        }
+        let events = device.empty(EVENTS)?;
+        let screen = emit(device, &self.batch.work.settings, vertices, count, &events)?;
+        made.screen.extend(device.read(&screen, 0, 3 * count)?);
+        Ok(device.read(&events, 1, 1)?[0].into())
+    }
+
+    fn write_range(&self, range: &Range<usize>, made: &mut Made) -> Result<u64> {
         let device = self.batch.device;
         let points = self.laid.points.items(range);
         let vertices = device.empty(VERTEX * points.len())?;
@@ -88,7 +102,7 @@ impl<'a> Shape<'a> {
         self.count(range, &vertices, &triangles)?;
         made.vertices.extend(device.read(&vertices, 0, VERTEX * points.len())?);
         made.triangles.extend(device.read(&triangles, 0, 3 * count)?);
-        Ok(())
+        self.divide(&vertices, points.len(), made)
     }
 
     /// Looks at the points and triangles of a range.

@@ -6,8 +6,9 @@ use crate::config::{Boundary, Config};
 use crate::error::Result;
 use crate::gpu::device::{Buffer, Device};
 use crate::gpu::kernel::Kernel;
-use crate::gpu::made::Made;
+use crate::gpu::made::{Made, Name};
 use crate::gpu::settings::{PATCH, Settings, VERTEX};
+use crate::gpu::surface;
 
 mod counts;
 
@@ -153,16 +154,35 @@ impl<'a> Lot<'a> {
             .starts
             .each_ref()
             .map(|starts| starts.iter().step_by(COARSE_TRIANGLES).copied().collect());
+        let mut counts = self.counts(&decisions, &mesh, &points, &events)?;
+        let screen = self.divide(&points, vertices, &mut counts)?;
         Ok(Made {
             levels: Vec::new(),
             fates: self.device.read(&self.fates, 0, self.fates.words())?,
             vertex_starts,
             triangle_starts,
             vertices: self.device.read(&points, 0, VERTEX * vertices)?,
-            screen: Vec::new(),
+            screen,
             triangles: self.device.read(&mesh.triangles, 0, 3 * triangles)?,
-            counts: self.counts(&decisions, &mesh, &points, &events)?,
+            counts,
         })
+    }
+
+    /// Screen positions, where the unit divides; those that stay homogeneous are counted.
+    fn divide(
+        &self,
+        points: &Buffer,
+        vertices: usize,
+        counts: &mut Vec<(Name, u64)>,
+    ) -> Result<Vec<u32>> {
+        if !self.work.config.divides() {
+            return Ok(Vec::new());
+        }
+        let events = self.device.empty(surface::EVENTS)?;
+        let screen = surface::emit(self.device, &self.work.settings, points, vertices, &events)?;
+        let homogeneous = self.device.read(&events, 1, 1)?[0];
+        counts.push((("emit", "vertices.to_clipper"), homogeneous.into()));
+        self.device.read(&screen, 0, 3 * vertices)
     }
 
     /// The strips, counted and then written.

@@ -102,7 +102,7 @@ impl<'a> Tap<'a> {
 
     fn compare(&mut self, frame: &FrameInfo, items: &[Item], made: &Made) {
         super::blocks::compare(&mut self.ledger, self.config, frame, items, made);
-        units::compare(&mut self.ledger, frame, items, made);
+        units::compare(&mut self.ledger, self.config.unit, frame, items, made);
     }
 }
 

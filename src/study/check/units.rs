@@ -8,6 +8,7 @@ use crate::gpu::{self, Device, Made, Settings, VERTEX, push_patch, words};
 use crate::sink::{Arrived, FrameInfo};
 use rtl_model::level::{self, Criterion};
 use rtl_model::patch::Patch;
+use std::ops::Range;
 
 /// The tessellation state as the kernels have it.
 pub(super) fn state(state: &level::State) -> gpu::State {
@@ -95,15 +96,33 @@ pub(super) fn make(
     }
 }
 
+/// The blocks that make parameters, positions, triangles and screen positions.
+fn makers(unit: Unit) -> [&'static str; 4] {
+    match unit {
+        Unit::Hybrid | Unit::Triangles | Unit::Sfarti | Unit::Moreton => {
+            ["place", "evaluate", "stitch", "emit"]
+        }
+        Unit::D3d11 => ["points", "domain", "connect", "emit"],
+        Unit::Esc => ["surface", "surface", "surface", "emit"],
+    }
+}
+
 /// Compares what both made of each patch.
-pub(super) fn compare(ledger: &mut Ledger, frame: &FrameInfo, items: &[Item], made: &Made) {
+pub(super) fn compare(
+    ledger: &mut Ledger,
+    unit: Unit,
+    frame: &FrameInfo,
+    items: &[Item],
+    made: &Made,
+) {
+    let [placed, evaluated, joined, divided] = makers(unit);
     let none = Mesh::default();
     for (k, item) in items.iter().enumerate() {
         let mesh = item.mesh.as_ref().unwrap_or(&none);
         let at = |starts: &[u32], words: usize| {
             words * starts[k] as usize..words * starts[k + 1] as usize
         };
-        let vertices = &made.vertices[at(&made.vertex_starts, VERTEX)];
+        let [parameters, positions] = split(&made.vertices[at(&made.vertex_starts, VERTEX)]);
         let screen = match made.screen.is_empty() {
             true => &[][..],
             false => &made.screen[at(&made.vertex_starts, 3)],
@@ -113,10 +132,20 @@ pub(super) fn compare(ledger: &mut Ledger, frame: &FrameInfo, items: &[Item], ma
         let mut each = |row, what, size: usize, cpu: &[u32], gpu: &[u32]| {
             parts(ledger, row, (&place, what, size), (cpu, gpu), &item.arrived);
         };
-        each(("unit", "vertices"), "vertex", VERTEX, &mesh.vertices, vertices);
-        each(("unit", "screen positions"), "vertex", 3, &mesh.screen, screen);
-        each(("unit", "triangles"), "triangle", 3, &mesh.triangles, triangles);
+        let [cpu_parameters, cpu_positions] = split(&mesh.vertices);
+        each((placed, "parameters"), "vertex", 2, &cpu_parameters, &parameters);
+        each((evaluated, "positions"), "vertex", VERTEX - 2, &cpu_positions, &positions);
+        each((joined, "triangles"), "triangle", 3, &mesh.triangles, triangles);
+        each((divided, "screen positions"), "vertex", 3, &mesh.screen, screen);
     }
+}
+
+/// Parameters and positions of vertices.
+fn split(vertices: &[u32]) -> [Vec<u32>; 2] {
+    let part = |range: Range<usize>| {
+        vertices.chunks(VERTEX).flat_map(|vertex| &vertex[range.clone()]).copied().collect()
+    };
+    [part(VERTEX - 2..VERTEX), part(0..VERTEX - 2)]
 }
 
 /// Compares one by one, where the whole differs, so that the first difference is named.
