@@ -32,10 +32,22 @@ fn levels_of_resolution_are_chosen_alike() {
                 ]);
                 (state.min, state.max) = (Level::MIN, Level::MAX);
             }
+            if width >= 26 {
+                halves(&mut random, &mut batch);
+            }
             levels(&mut ledger, device, &batch);
         }
     }
     support::settle(&ledger, 40_000);
+}
+
+/// Makes a patch of a few ulps, whose projections are halves of 2^-16 pixels: 1280 pixels are
+/// 5 2^8, so x is multiplied by 5 2^23 and divided by w.
+fn halves(random: &mut Random, batch: &mut Batch) {
+    batch.view.viewport = [1280, 1280];
+    batch.states[0].criterion = Criterion::EdgeLength { pixels: 1 };
+    let mut coordinate = || i64::from(random.integer(0, 8)) - 4;
+    batch.patches[0].points = [(); 16].map(|()| [coordinate(), coordinate(), 0, 1 << 24]);
 }
 
 fn levels(ledger: &mut Ledger, device: &Device, batch: &Batch) {
