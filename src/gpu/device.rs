@@ -5,13 +5,17 @@ use super::record::Dispatch;
 use super::settings::Settings;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::time::Duration;
 
 /// Invocations of a workgroup, in every kernel.
 const GROUP: u32 = 64;
 
 /// Groups along an axis of a dispatch, at most: what WebGPU promises.
 const GROUPS_MAX: u32 = 65_535;
+
+/// How long an answer may take after all work is done.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Which interface of the system is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -304,15 +308,16 @@ impl Device {
 
     /// The bytes of a buffer that can be mapped, when all that was submitted is done.
     pub(super) fn mapped(&self, staging: &wgpu::Buffer) -> Result<Vec<u8>> {
-        let outcome = Arc::new(Mutex::new(None));
-        let seen = outcome.clone();
+        let (sender, receiver) = mpsc::channel();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            *seen.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+            // Nobody waits any more where waiting has failed.
+            let _ = sender.send(result);
         });
         let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
         waited.map_err(|reason| self.failed(&reason.to_string()))?;
-        match outcome.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            Some(Ok(())) => {}
+        // Another thread's poll may be the one that answers, a little later.
+        match receiver.recv_timeout(PATIENCE) {
+            Ok(Ok(())) => {}
             other => return Err(self.failed(&format!("memory cannot be read: {other:?}"))),
         }
         let range = staging.get_mapped_range(..);

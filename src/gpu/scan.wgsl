@@ -6,7 +6,8 @@
 var<workgroup> sums: array<u32, 64>;
 
 // The sums of column c of a rows of b words before each row, and behind the last the sum of all:
-// one group, which takes 64 stretches side by side. Totals stay below 2^32.
+// one group, which takes 64 stretches side by side. Totals stay below 2^32,
+// and rows below 2^21, for the same reason as in `columns`.
 @compute @workgroup_size(64)
 fn scan(@builtin(local_invocation_id) id: vec3<u32>) {
     let count = settings.a;
@@ -32,7 +33,8 @@ fn scan(@builtin(local_invocation_id) id: vec3<u32>) {
     }
 }
 
-// The sum of each column over a rows of b words, of two words.
+// The sum of each column over a rows of b words, of two words. At most 32768 rows: some drivers end
+// the loops of an invocation, all of them together, after 65535 turns.
 @compute @workgroup_size(64)
 fn columns(
     @builtin(global_invocation_id) id: vec3<u32>,

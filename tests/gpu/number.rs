@@ -78,44 +78,109 @@ fn rounded(mode: Rounding, work: impl Modal<Output = i128>) -> I256 {
 
 use Operands::{Any64, Any128, Any256, Positive, Root};
 
-#[rustfmt::skip]
 const OPERATIONS: [Operation; 28] = [
-    Operation { name: "add64", operands: Any64, result: |a, b, _| low(a).wrapping_add(low(b)).into() },
-    Operation { name: "sub64", operands: Any64, result: |a, b, _| low(a).wrapping_sub(low(b)).into() },
-    Operation { name: "mul64", operands: Any64, result: |a, b, _| low(a).wrapping_mul(low(b)).into() },
+    Operation {
+        name: "add64",
+        operands: Any64,
+        result: |a, b, _| low(a).wrapping_add(low(b)).into(),
+    },
+    Operation {
+        name: "sub64",
+        operands: Any64,
+        result: |a, b, _| low(a).wrapping_sub(low(b)).into(),
+    },
+    Operation {
+        name: "mul64",
+        operands: Any64,
+        result: |a, b, _| low(a).wrapping_mul(low(b)).into(),
+    },
     Operation { name: "mul_signed", operands: Any64, result: |a, b, _| a * b },
-    Operation { name: "add128", operands: Any128, result: |a, b, _| a.as_i128().wrapping_add(b.as_i128()).into() },
-    Operation { name: "sub128", operands: Any128, result: |a, b, _| a.as_i128().wrapping_sub(b.as_i128()).into() },
-    Operation { name: "mul128", operands: Any128, result: |a, b, _| a.as_i128().wrapping_mul(b.as_i128()).into() },
+    Operation {
+        name: "add128",
+        operands: Any128,
+        result: |a, b, _| a.as_i128().wrapping_add(b.as_i128()).into(),
+    },
+    Operation {
+        name: "sub128",
+        operands: Any128,
+        result: |a, b, _| a.as_i128().wrapping_sub(b.as_i128()).into(),
+    },
+    Operation {
+        name: "mul128",
+        operands: Any128,
+        result: |a, b, _| a.as_i128().wrapping_mul(b.as_i128()).into(),
+    },
     Operation { name: "mul_signed128", operands: Any128, result: |a, b, _| a.wrapping_mul(b) },
     Operation { name: "add256", operands: Any256, result: |a, b, _| a.wrapping_add(b) },
     Operation { name: "sub256", operands: Any256, result: |a, b, _| a.wrapping_sub(b) },
-    Operation { name: "round64", operands: Operands::Shift(62, 62), result: |a, b, mode| rounded(mode, Shift(low(a).into(), b.as_u32())) },
-    Operation { name: "round128", operands: Operands::Shift(126, 126), result: |a, b, mode| rounded(mode, Shift(a.as_i128(), b.as_u32())) },
-    Operation { name: "divide_rounded", operands: Positive, result: |a, b, mode| rounded(mode, Divide(a.as_i128(), b.as_i128())) },
-    Operation { name: "root_up", operands: Root, result: |a, _, _| sqrt_ceil(a.as_u128()).try_into().expect("a root") },
+    Operation {
+        name: "round64",
+        operands: Operands::Shift(62, 62),
+        result: |a, b, mode| rounded(mode, Shift(low(a).into(), b.as_u32())),
+    },
+    Operation {
+        name: "round128",
+        operands: Operands::Shift(126, 126),
+        result: |a, b, mode| rounded(mode, Shift(a.as_i128(), b.as_u32())),
+    },
+    Operation {
+        name: "divide_rounded",
+        operands: Positive,
+        result: |a, b, mode| rounded(mode, Divide(a.as_i128(), b.as_i128())),
+    },
+    Operation {
+        name: "root_up",
+        operands: Root,
+        result: |a, _, _| sqrt_ceil(a.as_u128()).try_into().expect("a root"),
+    },
     Operation { name: "fit", operands: Operands::Shift(62, 1), result: |_, _, _| I256::ZERO },
     Operation { name: "less64", operands: Any64, result: |a, b, _| flag(a < b) },
     Operation { name: "less128", operands: Any128, result: |a, b, _| flag(a < b) },
     Operation { name: "less256", operands: Any256, result: |a, b, _| flag(a < b) },
-    Operation { name: "divide_up", operands: Positive, result: |a, b, _| {
-        let (a, b) = (a.as_i128().unsigned_abs(), b.as_u128());
-        U256::from(a.div_ceil(b)).as_i256()
-    } },
-    Operation { name: "shl128", operands: Operands::Shift(127, 127), result: |a, b, _| (a.as_i128() << b.as_u32()).into() },
-    Operation { name: "sar128", operands: Operands::Shift(127, 127), result: |a, b, _| (a.as_i128() >> b.as_u32()).into() },
-    Operation { name: "max64 abs64", operands: Any64, result: |a, b, _| low(a).wrapping_abs().max(low(b)).into() },
-    Operation { name: "max128 abs128", operands: Any128, result: |a, b, _| a.as_i128().wrapping_abs().max(b.as_i128()).into() },
+    Operation {
+        name: "divide_up",
+        operands: Positive,
+        result: |a, b, _| {
+            let (a, b) = (a.as_i128().unsigned_abs(), b.as_u128());
+            U256::from(a.div_ceil(b)).as_i256()
+        },
+    },
+    Operation {
+        name: "shl128",
+        operands: Operands::Shift(127, 127),
+        result: |a, b, _| (a.as_i128() << b.as_u32()).into(),
+    },
+    Operation {
+        name: "sar128",
+        operands: Operands::Shift(127, 127),
+        result: |a, b, _| (a.as_i128() >> b.as_u32()).into(),
+    },
+    Operation {
+        name: "max64 abs64",
+        operands: Any64,
+        result: |a, b, _| low(a).wrapping_abs().max(low(b)).into(),
+    },
+    Operation {
+        name: "max128 abs128",
+        operands: Any128,
+        result: |a, b, _| a.as_i128().wrapping_abs().max(b.as_i128()).into(),
+    },
     Operation { name: "is_positive128", operands: Any128, result: |a, _, _| flag(a.as_i128() > 0) },
     Operation { name: "is_positive256", operands: Any256, result: |a, _, _| flag(a > 0) },
     Operation { name: "mul_mixed", operands: Any128, result: |a, b, _| I256::from(low(a)) * b },
-    Operation { name: "select128", operands: Operands::SetBit, result: |a, b, _| {
-        set_bit(a, b.as_u32()).into()
-    } },
-    Operation { name: "count_below128", operands: Operands::Shift(128, 129), result: |a, b, _| {
-        let below = (U256::ONE << b.as_u32()) - 1;
-        (a.as_u256() & below).count_ones().into()
-    } },
+    Operation {
+        name: "select128",
+        operands: Operands::SetBit,
+        result: |a, b, _| set_bit(a, b.as_u32()).into(),
+    },
+    Operation {
+        name: "count_below128",
+        operands: Operands::Shift(128, 129),
+        result: |a, b, _| {
+            let below = (U256::ONE << b.as_u32()) - 1;
+            (a.as_u256() & below).count_ones().into()
+        },
+    },
 ];
 
 /// A signed integer of up to so many bits: of any length, or near a power of two, or a word's end.

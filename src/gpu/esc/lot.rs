@@ -4,6 +4,7 @@ use super::settings::{POINTS, Tests, own, policy, sections, turns};
 use super::{Decided, Esc};
 use crate::config::{Boundary, Config};
 use crate::error::Result;
+use crate::gpu::backface;
 use crate::gpu::device::{Buffer, Device};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::made::{Made, Name};
@@ -72,6 +73,7 @@ impl<'a> Lot<'a> {
             resolutions: device.empty(RESOLUTION * count)?,
         };
         lot.run(Kernel::Clip, "clip", count, &[&lot.patches, &lot.fates])?;
+        backface(device, &lot.settings.of(count), &lot.patches, &lot.fates)?;
         let projected = device.empty(PROJECTION * 16 * count)?;
         let given = device.upload(work.object_levels.unwrap_or(&[0]))?;
         if matches!(policy(&work).0, 0 | 3) {
@@ -156,9 +158,11 @@ impl<'a> Lot<'a> {
             .map(|starts| starts.iter().step_by(COARSE_TRIANGLES).copied().collect());
         let mut counts = self.counts(&decisions, &mesh, &points, &events)?;
         let screen = self.divide(&points, vertices, &mut counts)?;
+        let fates = self.device.read(&self.fates, 0, self.fates.words())?;
+        counts.extend(counts::culled(&fates));
         Ok(Made {
             levels: Vec::new(),
-            fates: self.device.read(&self.fates, 0, self.fates.words())?,
+            fates,
             vertex_starts,
             triangle_starts,
             vertices: self.device.read(&points, 0, VERTEX * vertices)?,

@@ -34,6 +34,21 @@ struct Sums {
     cracks: u64,
 }
 
+/// What clip and backface did, from the fates of patches: these are few, and are read anyway.
+pub(super) fn culled(fates: &[u32]) -> [(Name, u64); 6] {
+    let of = |fate: u32| fates.chunks(4).filter(|words| words[0] == fate).count() as u64;
+    let sum = |word: usize| fates.chunks(4).map(|words| u64::from(words[word])).sum();
+    let (patches, clipped) = ((fates.len() / 4) as u64, of(0));
+    [
+        (("clip", "patches.in"), patches),
+        (("clip", "patches.culled"), clipped),
+        (("backface", "patches.in"), patches - clipped),
+        (("backface", "patches.tested"), sum(1)),
+        (("backface", "facets.tested"), sum(2)),
+        (("backface", "patches.culled"), of(1)),
+    ]
+}
+
 impl Lot<'_> {
     /// What was counted.
     pub(super) fn counts(
