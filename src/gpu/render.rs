@@ -2,8 +2,9 @@
 //!
 //! In come facets ([`Facet`]), already in pixels ([`Lens`] takes them there from clip space); out
 //! comes an [`Image`]. Nobody compares these to the bit with anything, so floats are allowed. What
-//! is compared: a picture drawn tile by tile is the one drawn at once. So corners lie on a grid that
-//! no tile's offset can round away, and the shader interpolates by itself, from whole coordinates.
+//! is compared: a picture drawn tile by tile is the one drawn at once. So corners lie on a grid
+//! that no tile's offset can round away, and the shader interpolates by itself, from coordinates
+//! of the whole picture.
 //!
 //! Edges are smoothed by samples on a square grid, [`SAMPLES`] a side, averaged in linear light.
 
@@ -32,7 +33,8 @@ const TILE: u32 = 1024;
 /// Draws facets into a picture of `size` pixels, in tiles of at most `tile` pixels a side.
 ///
 /// # Errors
-/// [`Error::Usage`] for a size of 0 or above [`SIZE_MAX`], [`Error::Device`] where the device fails.
+/// [`Error::Usage`] for a size of 0 or above [`SIZE_MAX`], [`Error::Device`] where the device
+/// fails.
 pub fn draw(
     device: &Device,
     facets: &[Facet],

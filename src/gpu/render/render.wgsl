@@ -5,7 +5,7 @@
 // with them its depth. So only coverage is the device's, of corners on a grid that it keeps.
 
 struct Look {
-    // The tile's first sample, and how many it has.
+    // The tile's first sample, and how many the viewport has: powers of two.
     origin: vec2<f32>,
     size: vec2<f32>,
     // 0 shaded, 1 wireframe, 2 heat map.

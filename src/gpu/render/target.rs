@@ -162,6 +162,8 @@ impl<'a> Target<'a> {
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
+        let [width, height] = viewport(self.size).map(|side| side as f32);
+        pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
         for batch in batches {
             pass.set_bind_group(0, &batch.group, &[]);
             pass.draw(0..batch.vertices, 0..1);
@@ -178,7 +180,7 @@ fn uniform(look: &Look, size: [u32; 2]) -> Uniform {
     let end = |of: fn(&super::Scale) -> f64| scale.as_ref().map_or(0.0, of) as f32;
     Uniform {
         origin: [0.0; 2],
-        size: size.map(|side| (side * SAMPLES) as f32),
+        size: viewport(size).map(|side| side as f32),
         paint,
         log: u32::from(scale.is_some_and(|scale| scale.log)),
         least: end(|scale| scale.least),
@@ -195,6 +197,12 @@ fn uniform(look: &Look, size: [u32; 2]) -> Uniform {
 
 const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Samples of the viewport that a tile of `size` pixels is the upper left part of: powers of two,
+/// so that corners are taken there and back without rounding.
+fn viewport(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| (side * SAMPLES).next_power_of_two())
+}
 
 /// Bytes of a row of samples, as a copy wants them.
 fn row(size: [u32; 2]) -> u32 {
