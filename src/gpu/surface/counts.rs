@@ -68,13 +68,10 @@ impl Counts {
         if culls(config) {
             self.culled(patches as u64, &mut counts);
         }
-        if config.divides() {
-            counts.push((("emit", "vertices.to_clipper"), homogeneous));
-        }
-        if config.evaluate.normals == Normals::TangentPlane {
-            counts.push((("evaluate", "normals"), self.plans[VERTICES]));
-            counts.push((("evaluate", "normals.degenerate"), planes));
-        }
+        counts.push((("emit", "vertices.to_clipper"), homogeneous));
+        let lit = config.evaluate.normals == Normals::TangentPlane;
+        counts.push((("evaluate", "normals"), if lit { self.plans[VERTICES] } else { 0 }));
+        counts.push((("evaluate", "normals.degenerate"), planes));
         self.bytes(config, &mut counts);
         counts
     }

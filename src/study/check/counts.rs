@@ -21,6 +21,7 @@ pub const NOT_COMPARED: &[(&str, &str, &str)] = &[
     ("group", "rounds", WAVE),
     ("surface", "lane_cycles", WAVE),
     ("surface", "lane_cycles.used", WAVE),
+    ("surface", "lane_cycles.idle", WAVE),
 ];
 
 const COMMAND: &str = "says how its points were sent, of which nothing is left behind the port";
