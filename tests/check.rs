@@ -72,7 +72,8 @@ mod with_a_device {
         let [values, different] = ledger.totals();
         let (unit, width) = (config.unit.name(), config.position.width);
         println!(
-            "{trace} {unit} {width} bits: {values} values, {different} differ, {gpu:.1?} and {rest:.1?}"
+            "{trace} {unit} {width} bits: {values} values, {different} differ, kernels {gpu:.1?}, \
+             rest {rest:.1?}"
         );
         for row in ledger.rows().iter().filter(|row| row.different > 0) {
             println!("  {} {}: {} differ: {:?}", row.block, row.what, row.different, row.first);
@@ -132,7 +133,7 @@ mod with_a_device {
     fn a_kernel_that_is_wrong_is_named_with_patch_and_values() {
         for (file, from, to, unit, block) in [
             ("clip.wgsl", "planes |= outside << plane", "planes |= 0u", Unit::Hybrid, "clip"),
-            ("emit.wgsl", "settings.viewport_y", "settings.viewport_x", Unit::Sfarti, "unit"),
+            ("emit.wgsl", "settings.viewport_y", "settings.viewport_x", Unit::Sfarti, "emit"),
         ] {
             let text = Sources::shipped(file).expect("a kernel");
             assert!(text.contains(from), "{file} has changed");

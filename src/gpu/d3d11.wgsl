@@ -1,4 +1,4 @@
-// D3d11: the fixed-function tessellator's factors. In come FACTORS words a patch, f32 as their bits;
+// D3d11: the fixed-function tessellator's factors. In come FACTORS words a patch, the bits of f32;
 // out comes its pattern: factors in 16.16, and how many points and primitives they make, as the
 // Direct3D 11.3 functional specification, section 11.7.4, has them.
 //

@@ -1,7 +1,7 @@
 // What the tessellator, the cache of shaded points and the domain shader did for a patch: vertices
 // and triangles in, words of its row of counts out.
 //
-// Triangles and edges are looked at one an invocation. The cache is walked by an invocation a patch,
+// Triangles and edges are looked at one an invocation. An invocation a patch walks the cache,
 // each point with the number of the miss that brought it last; waves are what fills them. The first
 // implementation gathers waves one by one, and looks up what it has counted of a pattern before.
 //

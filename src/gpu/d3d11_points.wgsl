@@ -1,7 +1,7 @@
 // Points of the tessellator's patterns: an invocation a point, in U1.16.
 //
 // A point's parameter follows from its number by the definition of the Direct3D 11.3 functional
-// specification, section 11.7.6; the first implementation makes the list of each factor by adding up
+// specification, section 11.7.6; the first implementation makes the list of each factor by adding
 // steps from the middle outwards, and copies runs of them.
 //
 // Own settings, besides the shared: e words of a point's place, f where in it the point stands.

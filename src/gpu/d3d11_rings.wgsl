@@ -1,8 +1,9 @@
 // What the kernels of the tessellator share: a pattern's words, and where its rings are. Stands
 // before their own texts.
 //
-// The first implementation walks the rings one after another; here the place of each in the order of
-// points and of triangles is a difference of areas, so that an invocation finds its own by bisection.
+// The first implementation walks the rings one after another; here the place of each in the order
+// of points and of triangles is a difference of areas, so that an invocation finds its own by
+// bisection.
 //
 // Own settings: a domain (0 quad, 1 tri, 2 isoline), b partitioning (0 integer, 1 pow2, 2 odd,
 // 3 even), c output (0 point, 1 line, 2 clockwise, 3 counter-clockwise), d patches.

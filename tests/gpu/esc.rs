@@ -19,7 +19,7 @@ use tessim::study::check::Ledger;
 mod corners;
 mod expected;
 
-use expected::{Expected, threshold};
+use expected::{Expected, is_kept, threshold};
 
 /// Patches of a batch, and what both are told of them.
 pub(crate) struct Batch {
@@ -122,6 +122,8 @@ fn draw(random: &mut Random, width: u32, count: usize) -> Batch {
 fn patch(random: &mut Random, max: i64) -> Patch {
     let kind = random.of(Kind::ALL);
     let mut patch = random::patch(random, kind, max);
+    // Most of the random ones have their backs turned.
+    patch.cull = random.integer(0, 4) == 0;
     if random.integer(0, 9) == 0 {
         patch.points = patch.points.map(|[_, y, z, w]| [(w + 1).min(max), y, z, w]);
     }

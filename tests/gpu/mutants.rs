@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use tessim::gpu::Sources;
 
 /// A comparison that takes longer hangs: a loop has lost its end.
-const PATIENCE: Duration = Duration::from_secs(240);
+const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Of a hundred, how many must be caught.
 const CAUGHT: usize = 95;
@@ -99,6 +99,8 @@ fn own(file: &str) -> &str {
     match stem {
         "operations" => "number::",
         "settings" => "clip::",
+        "plan" => "place::",
+        "normal" => "evaluate::",
         "scan" => "surface::",
         _ => stem.split('_').next().unwrap_or(stem),
     }

@@ -64,7 +64,7 @@ fn levels(ledger: &mut Ledger, device: &Device, batch: &Batch) {
         let interior = levels.interior.into();
         let mut want =
             [v0, u1, v1, u0, interior, events.clamped, events.near, events.overflows].to_vec();
-        if batch.config.clip.enabled && clip::outside(patch, batch.view.depth) {
+        if !is_kept(batch, at) {
             want = vec![0, 0, 0, 0, u32::MAX, 0, 0, 0];
         }
         let place = || format!("patch {at} of {:?}", batch.view);
@@ -79,6 +79,7 @@ fn in_space(width: u32, points: [Point; 16], mu: f64) -> Batch {
     batch.config = Config { unit: Unit::Esc, ..Config::default() };
     batch.config.position.width = width;
     batch.config.clip.enabled = false;
+    batch.patches[0].cull = false;
     let esc = &mut batch.config.esc;
     (esc.level, esc.fixed_level, esc.mu, esc.space) = (LevelPolicy::Fixed, 1, mu, Space::Object);
     batch.object_format = Format::of_range(width, 0);

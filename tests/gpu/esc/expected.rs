@@ -1,6 +1,8 @@
 //! What the first implementation makes of a batch, and counts as unit `esc` does.
 
 use super::*;
+use rtl_model::backface::{self, Verdict};
+use rtl_model::emit;
 use rtl_model::esc::Made as Cost;
 use rtl_model::patch::Vertex;
 
@@ -78,6 +80,12 @@ fn shader(batch: &Batch) -> Surface {
 /// Sums of what patches cost.
 #[derive(Default)]
 struct Sums {
+    patches: u64,
+    clipped: u64,
+    tested: u64,
+    facets: u64,
+    culled: u64,
+    homogeneous: u64,
     cost: Cost,
     clamped: u64,
     near: u64,
@@ -100,16 +108,38 @@ impl Expected {
         let patches =
             (0..batch.patches.len()).map(|at| became(batch, at, &mut surface, &mut sums)).collect();
         let counts = sums.level().into_iter().chain(sums.shader()).chain(sums.data(batch));
-        let counts = counts.chain(sums.emitted(batch)).collect();
+        let counts = counts.chain(sums.emitted(batch)).chain(sums.culls()).collect();
         Self { patches, counts }
     }
 }
 
+/// 0 clipped, 1 culled, 2 kept.
+fn fate(batch: &Batch, at: usize, sums: &mut Sums) -> u32 {
+    let (patch, view, config) = (&batch.patches[at], &batch.view, &batch.config);
+    sums.patches += 1;
+    if config.clip.enabled && clip::outside(patch, view.depth) {
+        sums.clipped += 1;
+        return 0;
+    }
+    let (verdict, facets) = backface::accept(patch, view, config.backface.method);
+    sums.tested += u64::from(verdict != Verdict::Untested);
+    sums.facets += u64::from(facets);
+    let culled = verdict == Verdict::Culled;
+    sums.culled += u64::from(culled);
+    if culled { 1 } else { 2 }
+}
+
+/// How a patch is left by clip and back-face removal.
+pub(super) fn is_kept(batch: &Batch, at: usize) -> bool {
+    fate(batch, at, &mut Sums::default()) == 2
+}
+
 fn became(batch: &Batch, at: usize, surface: &mut Surface, sums: &mut Sums) -> Became {
     let (patch, view) = (&batch.patches[at], &batch.view);
-    if batch.config.clip.enabled && clip::outside(patch, view.depth) {
+    let fate = fate(batch, at, sums);
+    if fate < 2 {
         return Became {
-            fate: 0,
+            fate,
             levels: [0; 8],
             inserted: 0,
             vertices: Vec::new(),
@@ -136,6 +166,9 @@ fn became(batch: &Batch, at: usize, surface: &mut Surface, sums: &mut Sums) -> B
     sums.flatness += u64::from(matches!(criterion, Criterion::Flatness { .. }));
     sums.length += u64::from(matches!(criterion, Criterion::EdgeLength { .. }));
     let triangles = surface.triangles();
+    let Config { emit: e, .. } = &batch.config;
+    let divide = emit::Settings { subpixel_bits: e.subpixel_bits, rounding: e.rounding };
+    sums.homogeneous += emit::accept(&vertices, view, divide, &mut Vec::new());
     sums.take(batch, at, &made);
     sums.triangles += triangles.len() as u64;
     sums.degenerate += stitch::degenerate(&vertices, triangles);
@@ -255,7 +288,18 @@ impl Sums {
         .map(|(name, count)| (("surface", name), count))
     }
 
-    fn emitted(&self, batch: &Batch) -> [((&'static str, &'static str), u64); 4] {
+    fn culls(&self) -> [((&'static str, &'static str), u64); 6] {
+        [
+            (("clip", "patches.in"), self.patches),
+            (("clip", "patches.culled"), self.clipped),
+            (("backface", "patches.in"), self.patches - self.clipped),
+            (("backface", "patches.tested"), self.tested),
+            (("backface", "facets.tested"), self.facets),
+            (("backface", "patches.culled"), self.culled),
+        ]
+    }
+
+    fn emitted(&self, batch: &Batch) -> [((&'static str, &'static str), u64); 5] {
         let Config { esc, attributes, emit, .. } = &batch.config;
         let component = attributes.component_bytes();
         let indexed = esc.reuse != Reuse::None;
@@ -266,6 +310,7 @@ impl Sums {
             ("triangles", self.triangles),
             ("bytes.attributes", self.attributes * component),
             ("bytes", records + self.attributes * component + indices),
+            ("vertices.to_clipper", self.homogeneous),
         ]
         .map(|(name, count)| (("emit", name), count))
     }
