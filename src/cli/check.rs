@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use tessim::config::{Config, Engine};
 use tessim::error::{Error, Result};
 use tessim::gpu::{Backend, Device, Sources};
+use tessim::output::table::grouped;
 use tessim::study::check::{self, Checked, Difference, Row};
 use tessim::trace::replay::Replay;
 
@@ -71,18 +72,21 @@ fn text(checked: &Checked, config: &Config, device: &Device) -> String {
     let mut out = String::new();
     let mut line = |text: String| writeln!(out, "{text}").expect("a String takes everything");
     line(format!(
-        "{}: unit {}, {} bits, {frames} frames, {patches} patches, on {}",
+        "{}: unit {}, {} bits, {frames} frame{}, {patches} patches, on {}",
         header.title,
         config.unit.name(),
         config.position.width,
+        if *frames == 1 { "" } else { "s" },
         device.name()
     ));
+    let numbers =
+        |values: u64, different: u64| format!("{:>15} {:>10}", grouped(values), grouped(different));
     line(format!("  {:<10} {:<24} {:>14} {:>10}", "block", "of which", "values", "different"));
     for Row { block, what, values, different, .. } in ledger.rows() {
-        line(format!("  {block:<10} {what:<24} {values:>14} {different:>10}"));
+        line(format!("  {block:<10} {what:<23} {}", numbers(*values, *different)));
     }
     let [values, different] = ledger.totals();
-    line(format!("  {:<35} {values:>14} {different:>10}", "in all"));
+    line(format!("  {:<34} {}", "in all", numbers(values, different)));
     line(format!(
         "  time: kernels {:.1} s, units and comparison {:.1} s",
         gpu.as_secs_f64(),

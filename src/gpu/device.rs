@@ -53,13 +53,16 @@ impl Backend {
     }
 }
 
+/// A kernel, its entry, and how many buffers it has.
+type Entry = (Kernel, &'static str, usize);
+
 /// An open device, and the kernels that have been compiled for it.
 pub struct Device {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     adapter: wgpu::AdapterInfo,
     sources: Sources,
-    pipelines: Mutex<HashMap<(Kernel, &'static str, usize), Arc<wgpu::ComputePipeline>>>,
+    pipelines: Mutex<HashMap<Entry, Arc<wgpu::ComputePipeline>>>,
     /// Bytes that a binding may have.
     binding_max: u64,
     lost: Arc<Mutex<Option<String>>>,
@@ -97,8 +100,8 @@ impl Device {
     pub fn open(backend: Backend, sources: Sources) -> Result<Self> {
         let mut reasons = Vec::new();
         for &backends in backend.choices() {
-            match pollster::block_on(Self::request(backends, &sources)) {
-                Ok(device) => return Ok(device),
+            match pollster::block_on(Self::request(backends)) {
+                Ok(device) => return Ok(Self { sources, ..device }),
                 Err(reason) => reasons.push(reason),
             }
         }
@@ -110,7 +113,7 @@ impl Device {
         )))
     }
 
-    async fn request(backends: wgpu::Backends, sources: &Sources) -> Result<Self, String> {
+    async fn request(backends: wgpu::Backends) -> Result<Self, String> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends,
             ..wgpu::InstanceDescriptor::new_without_display_handle()
@@ -136,7 +139,7 @@ impl Device {
             device,
             queue,
             adapter: info,
-            sources: sources.clone(),
+            sources: Sources::default(),
             pipelines: Mutex::default(),
             binding_max: limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
             lost,
@@ -345,11 +348,7 @@ impl Device {
         Ok(pipeline)
     }
 
-    fn compile(
-        &self,
-        text: &str,
-        (kernel, entry, buffers): (Kernel, &'static str, usize),
-    ) -> wgpu::ComputePipeline {
+    fn compile(&self, text: &str, (kernel, entry, buffers): Entry) -> wgpu::ComputePipeline {
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(kernel.file()),
             source: wgpu::ShaderSource::Wgsl(text.into()),

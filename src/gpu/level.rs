@@ -35,7 +35,7 @@ pub fn level(
 }
 
 /// The lists of the settings' items, [`LISTS`] words a patch. The batch must be small enough for a
-/// binding of [`CURVES`] times [`CURVE`] words a patch, which is less than the patches have.
+/// binding of 48 words a patch, eight curves of six, which is less than the patches have.
 ///
 /// # Errors
 /// As [`level`].

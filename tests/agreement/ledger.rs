@@ -1,7 +1,7 @@
 //! The one comparison: errors come in under a quantity, are held against its row, and the account
 //! is settled at the end. An exact row counts every difference as an error of 1.
 
-use super::table::{At, Quantity, Row, TABLE};
+use super::table::{At, KERNELS, Quantity, Row, TABLE};
 
 /// The share of its budget that the largest error must reach.
 const LEAST_USE: f64 = 0.25;
@@ -71,15 +71,28 @@ impl Ledger {
         }
     }
 
+    /// Takes in words of an exact row that were compared elsewhere, and what of them differs.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn words(&mut self, quantity: Quantity, row: &tessim::study::check::Row) {
+        let (_, tally) = self.find(quantity);
+        tally.compared += row.values;
+        for first in &row.first {
+            tally.fail(|| format!("{first:?}"));
+        }
+    }
+
     fn find(&mut self, quantity: Quantity) -> (&'static Row, &mut Tally) {
         let index = quantity as usize;
         (&TABLE[index], &mut self.tallies[index])
     }
 
-    /// Prints every row and returns what is wrong.
-    pub(crate) fn settle(&self) -> Vec<String> {
+    /// Prints every row and returns what is wrong; rows of kernels only where there are some.
+    pub(crate) fn settle(&self, kernels: bool) -> Vec<String> {
         let mut wrong = Vec::new();
         for (row, tally) in TABLE.iter().zip(&self.tallies) {
+            if row.what == KERNELS && !kernels {
+                continue;
+            }
             let name = format!("{}: {}", row.block, row.what);
             let (error, budget) = tally.worst;
             let n = tally.compared;

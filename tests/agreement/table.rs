@@ -106,6 +106,15 @@ pub(crate) enum Quantity {
     EscSites,
     EscMesh,
     EscEvaluated,
+    KernelClip,
+    KernelBackface,
+    KernelLevel,
+    KernelPlace,
+    KernelEvaluate,
+    KernelStitch,
+    KernelEmit,
+    KernelD3d11,
+    KernelEsc,
 }
 
 /// A row of the table.
@@ -221,6 +230,9 @@ const fn within(
 }
 
 use Quantity as Q;
+
+/// Rows of the second implementation, which need a GPU, or what stands in for one.
+pub(crate) const KERNELS: &str = "words of the kernels' results";
 
 #[rustfmt::skip]
 pub(crate) const TABLE: &[Row] = &[
@@ -420,4 +432,22 @@ pub(crate) const TABLE: &[Row] = &[
         "decisions"),
     exact(Q::EscEvaluated, "esc", "vertices evaluated, listed, distinct and moved", 1_000,
         "counts, from lists and sets"),
+    exact(Q::KernelClip, "clip", KERNELS, 1_000,
+        "comparisons of integers"),
+    exact(Q::KernelBackface, "backface", KERNELS, 1_000,
+        "exact volumes"),
+    exact(Q::KernelLevel, "level", KERNELS, 5_000,
+        "roots and quotients of integers, rounded the same way"),
+    exact(Q::KernelPlace, "place", KERNELS, 500_000,
+        "reciprocals and parameters rounded once"),
+    exact(Q::KernelEvaluate, "evaluate", KERNELS, 2_000_000,
+        "sums modulo 2^64, and roundings that are part of the definition"),
+    exact(Q::KernelStitch, "stitch", KERNELS, 1_000_000,
+        "decisions"),
+    exact(Q::KernelEmit, "emit", KERNELS, 1_000_000,
+        "one quotient, rounded once"),
+    exact(Q::KernelD3d11, "d3d11", KERNELS, 1_000_000,
+        "decisions, and singles by the rules of IEEE 754"),
+    exact(Q::KernelEsc, "esc", KERNELS, 1_000_000,
+        "decisions, and roundings that are part of the definition"),
 ];

@@ -3,6 +3,10 @@
 //! `TESSIM_LONG=1` draws ten times as many samples; `TESSIM_KERNELS=src/gpu` takes the kernels from
 //! that folder, so that a change needs no build; `TESSIM_BACKEND=gl` takes that interface.
 
+#![cfg_attr(
+    feature = "gpu",
+    expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")
+)]
 #![cfg_attr(not(feature = "gpu"), allow(dead_code, unused_imports, reason = "nothing to compare"))]
 
 #[cfg(feature = "gpu")]

@@ -131,7 +131,7 @@ const OPERATIONS: [Operation; 28] = [
     Operation {
         name: "root_up",
         operands: Root,
-        result: |a, _, _| sqrt_ceil(a.as_u128()).try_into().expect("a root"),
+        result: |a, _, _| U256::from(sqrt_ceil(a.as_u128())).as_i256(),
     },
     Operation { name: "fit", operands: Operands::Shift(62, 1), result: |_, _, _| I256::ZERO },
     Operation { name: "less64", operands: Any64, result: |a, b, _| flag(a < b) },

@@ -61,7 +61,9 @@ fn what_is_recorded_is_what_was_compared() {
             assert!(words > 1000, "{trace}: {kernel}");
         }
         for dispatch in &dispatches {
-            assert_ne!(dispatch.before, dispatch.after, "{}", dispatch.entry);
+            // A count of degenerate triangles may well stay 0.
+            let writes = dispatch.entry != "degenerate";
+            assert!(!writes || dispatch.before != dispatch.after, "{}", dispatch.entry);
             if let Some(folder) = &folder {
                 let text = serde_json::to_vec(dispatch).unwrap();
                 std::fs::write(folder.join(format!("{number}.json")), text).unwrap();

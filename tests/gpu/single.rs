@@ -7,7 +7,9 @@ use tessim::gpu::Kernel;
 use tessim::study::check::Ledger;
 
 /// Numbers of operations, by name: as single_operations.wgsl has them.
-const OPERATIONS: [(&str, fn(f32, f32) -> f32); 4] = [
+type Operation = (&'static str, fn(f32, f32) -> f32);
+
+const OPERATIONS: [Operation; 4] = [
     ("add", |a, b| a + b),
     ("subtract", |a, b| a - b),
     ("multiply", |a, b| a * b),

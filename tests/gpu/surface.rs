@@ -41,8 +41,7 @@ fn state(random: &mut Random, most: u32) -> State {
 
 impl Batch {
     fn draw(random: &mut Random, unit: Unit, width: u32, count: usize, most: u32) -> Self {
-        let mut config = Config::default();
-        config.unit = unit;
+        let mut config = Config { unit, ..Config::default() };
         config.position.width = width;
         config.position.overflow = random.of(number::Overflow::ALL);
         config.evaluate.rounding = random.of(number::Rounding::ALL);

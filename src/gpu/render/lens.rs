@@ -86,7 +86,7 @@ impl Lens {
     }
 
     /// Appends the facets of a triangle, whose edges are lines as `flags` says (as
-    /// [`Corner::flags`]).
+    /// `Corner::flags`).
     pub fn facets(&self, corners: &[Point; 3], flags: u32, facets: &mut Vec<Facet>) {
         let Clipped(polygon) = Clipped::new(corners, flags);
         if polygon.len() < 3 {
@@ -124,11 +124,14 @@ impl Lens {
     }
 }
 
-/// The bit of [`Corner::flags`] for the back.
+/// The bit of `Corner::flags` for the back.
 const BACK: u32 = 64;
 
 /// The bits of an edge that is a line, and of one that is a boundary too, in `Clipped`.
 const EDGE: u32 = 1 | 8;
+
+/// How far inside a plane a point in clip space is.
+type Distance<'a> = &'a dyn Fn(&[f64; 4]) -> f64;
 
 impl Clipped {
     /// Cuts a triangle plane by plane (Sutherland and Hodgman 1974).
@@ -137,7 +140,7 @@ impl Clipped {
         let edge = |k: usize| (corners[k], flags >> k & EDGE);
         let mut polygon = vec![edge(0), edge(1), edge(2)];
         let w_least = W_LEAST * corners.iter().map(|p| p.clip[3].abs()).fold(0.0, f64::max);
-        let distances: [&dyn Fn(&[f64; 4]) -> f64; 7] = [
+        let distances: [Distance<'_>; 7] = [
             &|p| p[3] - w_least,
             &|p| p[2],
             &|p| p[3] - p[2],
@@ -215,9 +218,9 @@ mod tests {
         let cut = facets([near(1.0), near(-1.0), [0.0, 1.0, 1.0, 1.0]], 7 | BACK);
         assert_eq!(cut.len(), 2);
         let values = cut.iter().flatten().map(|corner| corner.value);
-        assert!(
-            values.clone().fold(0.0_f32, f32::min) == -0.0 && values.fold(0.0, f32::max) == 1.0
-        );
+        // Half-way from -1 to 0 the cut is at -1/2.
+        let ends = [values.clone().fold(0.0_f32, f32::min), values.fold(0.0, f32::max)];
+        assert_eq!(ends, [-0.5, 1.0]);
         // Of a fan of four corners: edges 0-1 and the cut; the last edge, and the whole one.
         let flags = cut.iter().map(|facet| facet[0].flags).collect::<Vec<_>>();
         assert_eq!(flags, [1 | BACK, 2 | 4 | BACK]);
