@@ -154,6 +154,28 @@ mod with_a_device {
         }
     }
 
+    /// What a check of the teapot says that cannot be made.
+    fn fails(device: &Device) -> String {
+        let mut replay = Replay::open(&path("teapot")).unwrap();
+        let config = config(Unit::Hybrid, &["level.level=64"]);
+        let error = check::run(&mut replay, &config, device, |_| {}).unwrap_err();
+        assert_eq!(error.exit_code(), 3, "{error}");
+        error.to_string()
+    }
+
+    #[test]
+    fn a_device_that_fails_says_why() {
+        let Some(mut small) = open(Backend::Auto, Sources::default()) else { return };
+        small.limit_words(2_000);
+        assert!(fails(&small).contains("larger than a binding may be, 8000 bytes"));
+        let broken = Sources::default().with("clip.wgsl", "fn clip( {".to_owned());
+        let Some(device) = open(Backend::Auto, broken) else { return };
+        assert!(fails(&device).starts_with("clip.wgsl, clip: "));
+        let Some(lost) = open(Backend::Auto, Sources::default()) else { return };
+        lost.destroy();
+        assert!(fails(&lost).contains("lost"), "{}", fails(&lost));
+    }
+
     #[test]
     fn the_command_prints_a_table_and_the_adapter() {
         if open(Backend::Auto, Sources::default()).is_none() {

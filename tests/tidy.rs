@@ -26,14 +26,6 @@ const WALKED: [&str; 6] =
 const NO_GOLDEN: &[(&str, &str)] =
     &[("strip", "an order of golden::stitch's triangles, which that definition leaves open")];
 
-/// Blocks without kernels, each with its reason.
-const NO_KERNELS: &[(&str, &str)] = &[
-    ("port", "the second implementation begins with what it gives"),
-    ("assemble", "stands before the port's results are taken"),
-    ("attribute", "what it interpolates arrives with the corners, not through the port"),
-    ("strip", "an order of triangles, which kernels of stitch find without it"),
-];
-
 /// Modules of `rtl_model` that are no blocks: they compute nothing that could be compared.
 const NO_BLOCKS: [&str; 4] = ["number", "counter", "patch", "time"];
 
@@ -139,26 +131,6 @@ fn kernels_have_integers_only_and_keep_the_rules() {
     assert!(files.len() > 10, "only {} kernels found", files.len());
     let problems: Vec<String> =
         files.iter().flat_map(|(path, text)| rules::kernel_problems(path, text)).collect();
-    report(&problems);
-}
-
-#[test]
-fn every_block_has_its_kernels_or_a_reason() {
-    let order = arrows::module_order(&text_of("rtl_model/src/lib.rs"));
-    let blocks: Vec<_> = order.iter().filter(|m| !NO_BLOCKS.contains(&m.as_str())).collect();
-    let mut problems = Vec::new();
-    for block in &blocks {
-        let kernels = root().join(format!("src/gpu/{block}.wgsl")).is_file();
-        let excused = NO_KERNELS.iter().any(|(stem, _)| stem == block);
-        if kernels == excused {
-            problems.push(format!("{block}: kernels {kernels}, exemption {excused}"));
-        }
-    }
-    for (stem, reason) in NO_KERNELS {
-        if !blocks.iter().any(|block| block == stem) || reason.is_empty() {
-            problems.push(format!("{stem}: an exemption for no block, or without a reason"));
-        }
-    }
     report(&problems);
 }
 

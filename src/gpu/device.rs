@@ -130,11 +130,18 @@ impl Device {
             .await
             .map_err(|e| e.to_string())?;
         let lost = Arc::new(Mutex::new(None));
+        let note = |lost: &Arc<Mutex<Option<String>>>, reason: String| {
+            lost.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
+        };
         let seen = lost.clone();
         device.set_device_lost_callback(move |reason, message| {
-            *seen.lock().unwrap_or_else(PoisonError::into_inner) =
-                Some(format!("{reason:?}: {message}"));
+            note(&seen, format!("the device is lost: {reason:?}: {message}"));
         });
+        // What is objected to where nobody asks: of a device that is lost, anything may be.
+        let seen = lost.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            note(&seen, error.to_string());
+        }));
         Ok(Self {
             device,
             queue,
@@ -163,6 +170,13 @@ impl Device {
     /// Takes no buffer of more words from now on, so that work is split earlier.
     pub fn limit_words(&mut self, words: usize) {
         self.binding_max = self.binding_max.min(4 * words as u64);
+    }
+
+    /// Gives the device back. Whatever is asked of it afterwards is an error.
+    pub fn destroy(&self) {
+        self.device.destroy();
+        let mut lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.get_or_insert_with(|| "the device is lost: it was given back".to_owned());
     }
 
     /// A buffer of these words.
@@ -394,12 +408,12 @@ impl Device {
     ) -> Result<T> {
         let scope = self.device.push_error_scope(filter);
         let made = work();
-        match pollster::block_on(scope.pop()) {
-            Some(error) => Err(self.failed(&error.to_string())),
-            None => match &*self.lost.lock().unwrap_or_else(PoisonError::into_inner) {
-                Some(reason) => Err(self.failed(&format!("the device is lost: {reason}"))),
-                None => Ok(made),
-            },
+        let error = pollster::block_on(scope.pop());
+        // A lost device objects to everything: that it is lost says more.
+        let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        match lost.or_else(|| error.map(|error| error.to_string())) {
+            Some(reason) => Err(self.failed(&reason)),
+            None => Ok(made),
         }
     }
 

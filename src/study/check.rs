@@ -7,6 +7,7 @@
 
 mod blocks;
 mod counts;
+mod item;
 mod ledger;
 mod tap;
 mod units;

@@ -39,6 +39,8 @@ mod random;
 #[cfg(feature = "gpu")]
 mod records;
 #[cfg(feature = "gpu")]
+mod scan;
+#[cfg(feature = "gpu")]
 mod single;
 #[cfg(feature = "gpu")]
 mod stitch;

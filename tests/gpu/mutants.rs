@@ -1,9 +1,9 @@
 //! Whether the comparisons would notice a wrong constant: each number in each kernel is made one
 //! larger, one at a time, and the kernel's own comparisons are run again by another process.
 //!
-//! By default one of each file; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every seventh,
-//! and `TESSIM_MUTANTS=stem` those of one file. Survivors are printed with their lines; docs/kernels.md
-//! explains those that are known.
+//! By default one of each file; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every
+//! seventh, and `TESSIM_MUTANTS=stem` those of one file. Survivors are printed with their lines;
+//! docs/kernels.md explains those that are known.
 
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
@@ -16,8 +16,9 @@ use tessim::gpu::Sources;
 /// A comparison that takes longer hangs: a loop has lost its end.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// Of a hundred, how many must be caught.
+/// Of a hundred, how many must be caught: of many constants, and of a few, which prove less.
 const CAUGHT: usize = 95;
+const CAUGHT_OF_FEW: usize = 80;
 
 /// Files that stand before many kernels: another block's comparisons may be the ones that notice.
 const SHARED: [&str; 4] = ["number.wgsl", "settings.wgsl", "scan.wgsl", "plan.wgsl"];
@@ -106,7 +107,6 @@ fn own(file: &str) -> &str {
         "settings" => "clip::",
         "plan" => "place::",
         "normal" => "evaluate::",
-        "scan" => "surface::",
         _ => stem.split('_').next().unwrap_or(stem),
     }
 }
@@ -185,7 +185,8 @@ fn a_changed_constant_is_noticed() {
     let (all, left) = (mutants.len(), survivors.len());
     println!("in all: {} of {all} constants caught", all - left);
     assert!(all > 0, "there is nothing to change");
-    assert!(100 * (all - left) >= CAUGHT * all, "{left} of {all} changes go unnoticed");
+    let least = if chosen.is_some() { CAUGHT } else { CAUGHT_OF_FEW };
+    assert!(100 * (all - left) >= least * all, "{left} of {all} changes go unnoticed");
 }
 
 #[test]

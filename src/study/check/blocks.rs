@@ -1,9 +1,8 @@
 //! Block by block: the first implementation's blocks on the patches that arrived, beside what the
 //! kernels decided on the way.
 
+use super::item::{Item, net};
 use super::ledger::Ledger;
-use super::tap::Item;
-use super::units::net;
 use crate::config::{Config, Unit};
 use crate::gpu::{LEVELS, LISTS, Made};
 use crate::sink::{Arrived, FrameInfo};

@@ -1,12 +1,12 @@
 //! Tap: what a unit was given and what it made, collected until there is enough of it for the
 //! device.
 
-use super::counts;
+use super::item::{Item, Mesh};
 use super::ledger::Ledger;
-use super::units;
+use super::{blocks, counts, units};
 use crate::config::Config;
 use crate::error::Result;
-use crate::gpu::{Device, Made, Name, VERTEX, words};
+use crate::gpu::{Device, Made, Name};
 use crate::report::Report;
 use crate::sink::{Arrived, FrameInfo, PatchMesh, Sink};
 use std::collections::BTreeMap;
@@ -17,33 +17,6 @@ const PATCHES: usize = 1024;
 
 /// Vertices of a batch, but for those of its last patch.
 const VERTICES: usize = 400_000;
-
-/// What the first implementation made of a patch, in words as the kernels have them.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Mesh {
-    pub(super) vertices: Vec<u32>,
-    pub(super) screen: Vec<u32>,
-    pub(super) triangles: Vec<u32>,
-}
-
-impl Mesh {
-    fn of(mesh: &PatchMesh<'_>) -> Self {
-        let mut vertices = Vec::with_capacity(VERTEX * mesh.vertices.len());
-        for vertex in mesh.vertices {
-            vertices.extend(vertex.position.iter().flat_map(|&c| words(c)));
-            vertices.extend([vertex.u, vertex.v]);
-        }
-        let screen = mesh.screen.iter().flat_map(|s| [s.x as u32, s.y as u32, s.divided.into()]);
-        let triangles = mesh.triangles.iter().flatten().map(|&k| k.into());
-        Self { vertices, screen: screen.collect(), triangles: triangles.collect() }
-    }
-}
-
-/// A patch, and what became of it: no mesh, where it was clipped or culled.
-pub(super) struct Item {
-    pub(super) arrived: Arrived,
-    pub(super) mesh: Option<Mesh>,
-}
 
 /// The sink that collects.
 pub(super) struct Tap<'a> {
@@ -101,7 +74,7 @@ impl<'a> Tap<'a> {
     }
 
     fn compare(&mut self, frame: &FrameInfo, items: &[Item], made: &Made) {
-        super::blocks::compare(&mut self.ledger, self.config, frame, items, made);
+        blocks::compare(&mut self.ledger, self.config, frame, items, made);
         units::compare(&mut self.ledger, self.config.unit, frame, items, made);
     }
 }

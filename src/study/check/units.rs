@@ -1,7 +1,7 @@
 //! Whole units: what the kernels make of a batch, and the meshes beside each other.
 
+use super::item::{Item, Mesh, net};
 use super::ledger::Ledger;
-use super::tap::{Item, Mesh};
 use crate::config::{Config, Unit};
 use crate::error::Result;
 use crate::gpu::{self, Device, Made, Settings, VERTEX, push_patch, words};
@@ -166,16 +166,4 @@ fn parts(
         let place = || format!("{place}, {what} {k}");
         ledger.compare(row, &part(cpu), &part(gpu), place, inputs);
     }
-}
-
-/// Control points, as a person can feed them to something.
-pub(super) fn net(patch: &Patch) -> String {
-    let points = patch.points.map(|p| p.map(|c| format!("{c:#x}")).join(" "));
-    format!(
-        "control points [{}], saturated {}, cull {}, reversed {}",
-        points.join(", "),
-        patch.saturated,
-        patch.cull,
-        patch.reversed
-    )
 }
