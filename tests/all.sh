@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything that can be checked: format, lints, tests, documentation, a run of the command, benches.
 #
-#   tests/all.sh                 about a quarter of an hour on two cores, most of it building
+#   tests/all.sh                 about twenty minutes on two cores, most of it building
 #   tests/all.sh --long          the long campaigns too (TESSIM_LONG=1: tests scale their case counts)
 #   tests/all.sh --mutants       changes every constant of every kernel, one at a time; an hour
 #   tests/all.sh --browser       does recorded kernels again in headless Chromium
