@@ -18,8 +18,8 @@ fn a_picture_in_tiles_is_the_one_drawn_at_once_but_for_a_sample_or_two() {
     }
 }
 
-/// Whether so many bytes, of 163 350 in three pictures, that differ by so much are samples that fall
-/// to the other side of a seam: one of the nine of a pixel, of dark on light. A tile that is
+/// Whether so many bytes, of 163 350 in three pictures, that differ by so much are samples that
+/// fall to the other side of a seam: one of the nine of a pixel, of dark on light. A tile that is
 /// missing or a pixel off differs in thousands.
 fn is_a_sample(differ: usize, greatest: usize) -> bool {
     differ <= 60 && greatest <= 48
