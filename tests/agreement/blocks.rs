@@ -1,7 +1,8 @@
 //! One function a block: its output on one token against its golden model's, into the ledger.
 
 use super::ledger::Ledger;
-use super::table::{At, Quantity as Q, drifts, forward_surface};
+use super::table::budget::{drifts, forward_surface};
+use super::table::{At, Quantity as Q};
 use ethnum::I256;
 use rtl_model::assemble::{Cache, FanEncoding, Primitive};
 use rtl_model::attribute;

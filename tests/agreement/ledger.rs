@@ -1,7 +1,7 @@
 //! The one comparison: errors come in under a quantity, are held against its row, and the account
 //! is settled at the end. An exact row counts every difference as an error of 1.
 
-use super::table::{At, KERNELS, Quantity, Row, TABLE};
+use super::table::{At, KERNELS, Quantity, RANDOM, Row, TABLE};
 
 /// The share of its budget that the largest error must reach.
 const LEAST_USE: f64 = 0.25;
@@ -90,7 +90,7 @@ impl Ledger {
     pub(crate) fn settle(&self, kernels: bool) -> Vec<String> {
         let mut wrong = Vec::new();
         for (row, tally) in TABLE.iter().zip(&self.tallies) {
-            if row.what == KERNELS && !kernels {
+            if row.what == RANDOM || row.what == KERNELS && !kernels {
                 continue;
             }
             let name = format!("{}: {}", row.block, row.what);

@@ -27,7 +27,7 @@ mod walk;
 use ledger::Ledger;
 use std::collections::BTreeSet;
 use std::path::Path;
-use table::{KERNELS, TABLE};
+use table::{KERNELS, RANDOM, TABLE};
 
 /// Files of `rtl_model/src` that are no blocks, each with its reason.
 const NO_BLOCKS: [(&str, &str); 5] = [
@@ -76,7 +76,8 @@ fn every_block_has_a_golden_file_and_a_row() {
     for block in &blocks {
         assert!(golden.contains(*block), "{block}: no src/golden/{block}.rs");
         assert!(TABLE.iter().any(|row| row.block == *block), "{block}: no row in the table");
-        let kernels = TABLE.iter().any(|row| row.block == *block && row.what == KERNELS);
+        let has = |what| TABLE.iter().any(|row| row.block == *block && row.what == what);
+        let kernels = has(KERNELS) && has(RANDOM);
         let excused = NO_KERNELS.iter().any(|(stem, _)| stem == block);
         let file = root.join(format!("src/gpu/{block}.wgsl")).is_file();
         assert!(kernels != excused, "{block}: row {kernels}, exemption {excused}");
@@ -84,6 +85,19 @@ fn every_block_has_a_golden_file_and_a_row() {
     }
     println!("compared {} blocks", blocks.len());
     assert!(blocks.len() >= 9);
+}
+
+#[test]
+fn every_row_of_random_inputs_is_settled_in_its_test() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gpu");
+    let folders = [root.clone(), root.join("esc")];
+    let files = folders.iter().flat_map(|f| f.read_dir().unwrap()).map(|e| e.unwrap().path());
+    let rust = files.filter(|path| path.extension().is_some_and(|e| e == "rs"));
+    let text: String = rust.map(|path| std::fs::read_to_string(path).unwrap()).collect();
+    for row in TABLE.iter().filter(|row| row.what == RANDOM) {
+        let settled = text.contains(&format!("settle(&ledger, Quantity::{:?})", row.quantity));
+        assert!(settled, "{:?}: no test settles it", row.quantity);
+    }
 }
 
 #[test]

@@ -3,7 +3,8 @@
 
 use super::ledger::Ledger;
 use super::random::{Kind, Random, patch};
-use super::table::{At, Quantity as Q, weights_matter};
+use super::table::budget::weights_matter;
+use super::table::{At, Quantity as Q};
 use super::walk::Drawn;
 use rtl_model::number::{Format, Overflow, Rounding};
 use rtl_model::patch::ONE;

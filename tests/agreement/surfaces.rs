@@ -2,9 +2,8 @@
 
 use super::ledger::Ledger;
 use super::random::{Kind, Random, patch};
-use super::table::{
-    At, Quantity as Q, guard_matters, half_run, horner, parameter_matters, rounding,
-};
+use super::table::budget::{guard_matters, half_run, horner, parameter_matters, rounding};
+use super::table::{At, Quantity as Q};
 use super::walk::Drawn;
 use rtl_model::esc::{
     Boundary, ControlMesh, Input, LEVEL_MAX, Levels, Made, Reuse, Settings, Surface, Threshold,

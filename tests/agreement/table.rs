@@ -6,6 +6,13 @@
 //! and fails too. Samples are seeded, so the largest error is the same on every machine;
 //! `TESSIM_LONG=1` draws more, which can only raise it.
 
+#[path = "budget.rs"]
+pub(crate) mod budget;
+
+use budget::{
+    casteljau_curve, casteljau_surface, forward_curve, forward_surface, half_run, horner,
+};
+use budget::{reference, rounding, weighted};
 use rtl_model::number::Rounding;
 
 /// What a budget may depend on.
@@ -115,13 +122,30 @@ pub(crate) enum Quantity {
     KernelEmit,
     KernelD3d11,
     KernelEsc,
+    KernelNumber,
+    KernelSingle,
+    KernelScan,
+    KernelClipRandom,
+    KernelBackfaceRandom,
+    KernelLevelRandom,
+    KernelPlaceRandom,
+    KernelEvaluateRandom,
+    KernelPlaneRandom,
+    KernelStitchRandom,
+    KernelEmitRandom,
+    KernelUnitRandom,
+    KernelPatternRandom,
+    KernelD3d11Random,
+    KernelEscRandom,
+    KernelResolution,
+    KernelNear,
 }
 
 /// A row of the table.
 pub(crate) struct Row {
     /// The quantity.
     pub(crate) quantity: Quantity,
-    /// The block, a file of `rtl_model/src` or of `src/shader`.
+    /// The block, a file of `rtl_model/src`, of `src/shader` or of `src/gpu`.
     pub(crate) block: &'static str,
     /// The quantity in words, with its unit.
     pub(crate) what: &'static str,
@@ -131,80 +155,6 @@ pub(crate) struct Row {
     pub(crate) reason: &'static str,
     /// Fewer items than this, and the comparison has not taken place.
     pub(crate) floor: u64,
-}
-
-/// Half an ulp, or a whole one for a floor.
-pub(crate) fn rounding(at: &At) -> f64 {
-    if at.rounding == Rounding::Floor { 1.0 } else { 0.5 }
-}
-
-/// What f64 itself is off by: sixteen terms of a coordinate's size.
-fn reference(at: &At) -> f64 {
-    16.0 * 2f64.powi(at.width as i32 - 1 - 53)
-}
-
-/// The accumulator after n steps: D1, D2, D3 each off by half an ulp of 2^-guard, and h^3
-/// truncated to 2^-64 under |a| <= 8 * 2^(W-1).
-fn accumulator(at: &At, n: u32) -> f64 {
-    let n = f64::from(n);
-    let coefficients = (n + n * (n - 1.0) / 2.0 + n * (n - 1.0) * (n - 2.0) / 6.0) / 2.0;
-    coefficients * 2f64.powi(-(at.guard as i32)) + n.powi(3) * 2f64.powi(at.width as i32 + 2 - 64)
-}
-
-pub(crate) fn forward_curve(at: &At) -> f64 {
-    rounding(at) + accumulator(at, at.steps[0]) + reference(at)
-}
-
-pub(crate) fn forward_surface(at: &At) -> f64 {
-    2.0 * rounding(at) + accumulator(at, at.steps[0]) + accumulator(at, at.steps[1]) + reference(at)
-}
-
-/// Whether accumulators may be off by more than the output's rounding.
-pub(crate) fn drifts(at: &At) -> bool {
-    accumulator(at, at.steps[0]) + accumulator(at, at.steps[1]) > 2.0 * rounding(at)
-}
-
-fn casteljau_curve(at: &At) -> f64 {
-    3.0 * rounding(at) + reference(at)
-}
-
-fn casteljau_surface(at: &At) -> f64 {
-    6.0 * rounding(at) + reference(at)
-}
-
-/// Weighted sums along u and along v: `spread` is what a weight's ulp makes of the largest point.
-fn weighted(at: &At) -> f64 {
-    rounding(at) * (24.0 * at.spread + 8.0) + reference(at)
-}
-
-/// Whether the weights' roundings count for more than those of products.
-pub(crate) fn weights_matter(at: &At) -> bool {
-    24.0 * at.spread > 8.0
-}
-
-/// A product's rounding, in ulps of the output.
-fn guarded(at: &At) -> f64 {
-    rounding(at) * 2f64.powi(-(at.guard as i32))
-}
-
-/// Horner's rule at t <= 1/2: three products, of which two are multiplied by t and t^2.
-pub(crate) fn half_run(at: &At) -> f64 {
-    rounding(at) + 1.75 * guarded(at) + at.spread + reference(at)
-}
-
-/// Horner's rule along v for four coefficients, then along u.
-pub(crate) fn horner(at: &At) -> f64 {
-    rounding(at) + 15.0 * guarded(at) + at.spread + reference(at)
-}
-
-/// Whether the products' roundings count for more than the output's.
-pub(crate) fn guard_matters(at: &At) -> bool {
-    15.0 * guarded(at) > rounding(at)
-}
-
-/// Whether the parameters' roundings count for more than the others.
-pub(crate) fn parameter_matters(at: &At) -> bool {
-    at.spread > rounding(at) + 15.0 * guarded(at) + reference(at)
 }
 
 /// A row whose items must be equal.
@@ -233,6 +183,9 @@ use Quantity as Q;
 
 /// Rows of the second implementation, which need a GPU, or what stands in for one.
 pub(crate) const KERNELS: &str = "words of the kernels' results";
+
+/// The same on random inputs, of every width where there is one: compared in tests/gpu.
+pub(crate) const RANDOM: &str = "words of the kernels' results, random inputs";
 
 #[rustfmt::skip]
 pub(crate) const TABLE: &[Row] = &[
@@ -450,4 +403,38 @@ pub(crate) const TABLE: &[Row] = &[
         "decisions, and singles by the rules of IEEE 754"),
     exact(Q::KernelEsc, "esc", KERNELS, 1_000_000,
         "decisions, and roundings that are part of the definition"),
+    exact(Q::KernelNumber, "number", RANDOM, 1_000_000,
+        "integers of 32 to 256 bits in limbs"),
+    exact(Q::KernelSingle, "single", RANDOM, 50_000,
+        "singles by the rules of IEEE 754"),
+    exact(Q::KernelScan, "scan", RANDOM, 10_000,
+        "sums of integers"),
+    exact(Q::KernelClipRandom, "clip", RANDOM, 10_000,
+        "comparisons of integers"),
+    exact(Q::KernelBackfaceRandom, "backface", RANDOM, 10_000,
+        "exact volumes"),
+    exact(Q::KernelLevelRandom, "level", RANDOM, 50_000,
+        "roots and quotients of integers, rounded the same way"),
+    exact(Q::KernelPlaceRandom, "place", RANDOM, 10_000,
+        "reciprocals and parameters rounded once"),
+    exact(Q::KernelEvaluateRandom, "evaluate", RANDOM, 5_000_000,
+        "sums modulo 2^64, and roundings that are part of the definition"),
+    exact(Q::KernelPlaneRandom, "evaluate", RANDOM, 20_000,
+        "minors of 256 bits, cut before they are rounded as the definition has it"),
+    exact(Q::KernelStitchRandom, "stitch", RANDOM, 1_000_000,
+        "decisions"),
+    exact(Q::KernelEmitRandom, "emit", RANDOM, 100_000,
+        "one quotient, rounded once"),
+    exact(Q::KernelUnitRandom, "stitch", RANDOM, 2_000_000,
+        "all blocks of hybrid, triangles, sfarti and moreton, one after the other"),
+    exact(Q::KernelPatternRandom, "d3d11", RANDOM, 5_000_000,
+        "decisions"),
+    exact(Q::KernelD3d11Random, "d3d11", RANDOM, 200_000,
+        "all of the unit: decisions, and singles by the rules of IEEE 754"),
+    exact(Q::KernelEscRandom, "esc", RANDOM, 500_000,
+        "decisions, and roundings that are part of the definition"),
+    exact(Q::KernelResolution, "esc", RANDOM, 40_000,
+        "levels of resolution: comparisons of integers"),
+    exact(Q::KernelNear, "esc", RANDOM, 5_000,
+        "decisions on the very threshold"),
 ];

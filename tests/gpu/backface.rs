@@ -2,11 +2,11 @@
 
 use crate::random::{self, Kind, Random};
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::backface::{self, Verdict};
 use rtl_model::patch::{Patch, View};
 use tessim::config::{BackfaceMethod, Config};
 use tessim::gpu::{PATCH, Settings, backface as on_device, push_patch};
-use tessim::study::check::Ledger;
 
 /// Patches, beside the common kinds, whose determinants are 0 or next to it.
 fn draw(random: &mut Random, width: u32) -> Patch {
@@ -133,7 +133,7 @@ fn input(random: &mut Random, view: &View, method: BackfaceMethod) -> Patch {
 
 fn compare(method: BackfaceMethod, what: &'static str, patches: usize) {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(73);
     let mut seen = Seen::default();
     for width in 8..=48 {
@@ -167,7 +167,7 @@ fn compare(method: BackfaceMethod, what: &'static str, patches: usize) {
         }
     }
     println!("{what}: {seen:?}");
-    support::settle(&ledger, 10_000);
+    support::settle(&ledger, Quantity::KernelBackfaceRandom);
     let least = if method == BackfaceMethod::Off { 0 } else { 100 };
     assert!(seen.untested >= 100, "{seen:?}");
     assert!(seen.culled.min(seen.kept_early).min(seen.kept_late) >= least, "{seen:?}");

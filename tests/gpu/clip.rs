@@ -2,16 +2,16 @@
 
 use crate::random::{self, Kind, Random};
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::clip;
 use rtl_model::patch::{Depth, Point, View};
 use tessim::config::Config;
 use tessim::gpu::{Kernel, PATCH, Settings, push_patch};
-use tessim::study::check::Ledger;
 
 #[test]
 fn patches_are_clipped_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(72);
     // Patches outside of each plane, and those that one point keeps.
     let mut seen = [[0; 2]; 6];
@@ -66,5 +66,5 @@ fn patches_are_clipped_alike() {
         }
     }
     assert!(seen.iter().flatten().all(|&count| count > 30), "{seen:?}");
-    support::settle(&ledger, 10_000);
+    support::settle(&ledger, Quantity::KernelClipRandom);
 }

@@ -3,6 +3,7 @@
 
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::d3d11::{self as cpu, Partitioning, Tessellator};
 use tessim::gpu::d3d11::{Domain, FACTORS, Output, Tessellation, patterns};
 use tessim::gpu::{Backend, Device, Sources};
@@ -91,20 +92,20 @@ fn compare(ledger: &mut Ledger, device: &Device, factors: &[u32], partitioning: 
 #[test]
 fn patterns_agree_in_every_domain_partitioning_and_output() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(1101);
     for partitioning in PARTITIONINGS {
         let factors: Vec<u32> =
             (0..100 * support::effort()).flat_map(|_| draw(&mut random)).collect();
         compare(&mut ledger, device, &factors, partitioning);
     }
-    support::settle(&ledger, 1_000_000);
+    support::settle(&ledger, Quantity::KernelPatternRandom);
 }
 
 #[test]
 fn patterns_agree_for_every_count_of_segments() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut factors = Vec::new();
     for a in 1..=64 {
         for b in [1, 3, a, 64] {
@@ -113,7 +114,7 @@ fn patterns_agree_for_every_count_of_segments() {
         }
     }
     compare(&mut ledger, device, &factors, Partitioning::Integer);
-    support::settle(&ledger, 1_000_000);
+    support::settle(&ledger, Quantity::KernelPatternRandom);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use crate::d3d11::PARTITIONINGS;
 use crate::random::{self, Kind, Random};
 use crate::support;
+use crate::table::Quantity;
 use crate::walk;
 use rtl_model::backface::{self, Verdict};
 use rtl_model::counter::{Counter, DECLARATIONS};
@@ -194,7 +195,7 @@ fn compare_trace(ledger: &mut Ledger, device: &Device, name: &str, config: &Conf
 #[test]
 fn traces_come_out_of_the_unit_alike_with_all_that_is_counted() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(1104);
     for name in ["teaspoon", "teapot", "rational", "teacup"] {
         for _ in 0..3 * support::effort() {
@@ -203,7 +204,7 @@ fn traces_come_out_of_the_unit_alike_with_all_that_is_counted() {
             compare_trace(&mut ledger, device, name, &config);
         }
     }
-    support::settle(&ledger, 20);
+    support::settle(&ledger, Quantity::KernelD3d11Random);
 }
 
 /// Control points as a shader has them: those of the patch, some of them far out, and now and then
@@ -382,14 +383,14 @@ fn compare_width(ledger: &mut Ledger, device: &Device, random: &mut Random, widt
 #[test]
 fn random_patches_come_out_of_the_unit_alike_in_every_width() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(1105);
     for _ in 0..2 * support::effort() {
         for width in 8..=48 {
             compare_width(&mut ledger, device, &mut random, width);
         }
     }
-    support::settle(&ledger, 300);
+    support::settle(&ledger, Quantity::KernelD3d11Random);
 }
 
 #[test]

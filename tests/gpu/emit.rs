@@ -3,13 +3,13 @@
 
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::emit;
 use rtl_model::number::Rounding;
 use rtl_model::patch::{Vertex, View};
 use tessim::config::Config;
 use tessim::gpu::surface::{self, EVENTS};
 use tessim::gpu::{Settings, words};
-use tessim::study::check::Ledger;
 
 /// A vertex: w of any size and sign; x and y anywhere, or so that the quotient is a tie, or at an
 /// end of the band.
@@ -36,7 +36,7 @@ fn vertex(random: &mut Random, max: i64) -> Vertex {
 #[test]
 fn vertices_are_divided_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(76);
     let mut divided = [0; 2];
     for width in 8..=48 {
@@ -87,5 +87,5 @@ fn vertices_are_divided_alike() {
     }
     println!("not divided, divided: {divided:?}");
     assert!(divided.iter().all(|&n| n > 5_000), "both outcomes are common: {divided:?}");
-    support::settle(&ledger, 100);
+    support::settle(&ledger, Quantity::KernelEmitRandom);
 }

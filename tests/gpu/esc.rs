@@ -3,6 +3,7 @@
 
 use crate::random::{self, Kind, Random};
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::esc::resolution::{self, Policy, Resolution};
 use rtl_model::esc::{Input, Settings as Shader, Surface, Threshold};
 use rtl_model::level::{Criterion, State};
@@ -196,7 +197,7 @@ fn configuration(random: &mut Random, width: u32) -> Config {
 #[test]
 fn surfaces_are_tessellated_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(2014);
     for width in 8..=48 {
         for _ in 0..3 * support::effort() {
@@ -204,14 +205,14 @@ fn surfaces_are_tessellated_alike() {
             compare(&mut ledger, device, &batch);
         }
     }
-    support::settle(&ledger, 60);
+    support::settle(&ledger, Quantity::KernelEscRandom);
 }
 
 /// As shipped: what most runs have.
 #[test]
 fn surfaces_of_the_default_configuration_are_tessellated_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(2015);
     for _ in 0..2 * support::effort() {
         let mut batch = draw(&mut random, 32, 40);
@@ -219,7 +220,7 @@ fn surfaces_of_the_default_configuration_are_tessellated_alike() {
         batch.given = None;
         compare(&mut ledger, device, &batch);
     }
-    support::settle(&ledger, 40);
+    support::settle(&ledger, Quantity::KernelEscRandom);
 }
 
 fn compare(ledger: &mut Ledger, device: &Device, batch: &Batch) {

@@ -3,15 +3,15 @@
 use crate::batch::Batch;
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::evaluate::tangent_plane;
 use tessim::gpu::surface::{self, EVENTS, Source};
 use tessim::gpu::{VERTEX, words};
-use tessim::study::check::Ledger;
 
 #[test]
 fn vertices_are_evaluated_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(74);
     let (mut overflows, mut batches) = (0, [0; 3]);
     for width in 8..=48 {
@@ -61,13 +61,13 @@ fn vertices_are_evaluated_alike() {
     println!("{overflows} overflows; batches by scheme {batches:?}");
     assert!(overflows > 100, "points leave the range");
     assert!(batches.iter().all(|&n| n > 10), "every scheme");
-    support::settle(&ledger, 100);
+    support::settle(&ledger, Quantity::KernelEvaluateRandom);
 }
 
 #[test]
 fn tangent_planes_are_evaluated_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(77);
     let mut vanished = 0;
     for width in 8..=48 {
@@ -103,5 +103,5 @@ fn tangent_planes_are_evaluated_alike() {
         ledger.compare(("evaluate", "planes that vanish"), &want, &got, place, String::new);
     }
     assert!(vanished > 100, "only {vanished} planes vanish");
-    support::settle(&ledger, 41);
+    support::settle(&ledger, Quantity::KernelPlaneRandom);
 }

@@ -2,11 +2,11 @@
 
 use crate::random::{self, Kind, Random};
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::level::{self, Criterion, State};
 use rtl_model::patch::{DEPTH_MAX, Level, Patch, View};
 use tessim::config::{Config, Termination};
 use tessim::gpu::{self, LEVELS, LISTS, PATCH, Settings, push_patch};
-use tessim::study::check::Ledger;
 
 /// A patch and its tessellation state.
 struct Input {
@@ -136,7 +136,7 @@ fn compare(
     mut seen: impl FnMut(&Input, &[u32]),
 ) {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(74);
     for width in 8..=48 {
         for termination in [Termination::EightCurves, Termination::Bounded] {
@@ -170,7 +170,7 @@ fn compare(
             }
         }
     }
-    support::settle(&ledger, 5_000);
+    support::settle(&ledger, Quantity::KernelLevelRandom);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Whether the comparisons would notice a wrong constant: each number in each kernel is made one
-//! larger, one at a time, and the kernel's own comparisons are run again by another process.
+//! larger, one at a time, and the comparisons that go through the kernel are run again by another
+//! process.
 //!
 //! By default one of each file; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every
 //! seventh, and `TESSIM_MUTANTS=stem` those of one file. Survivors are printed with their lines;
@@ -19,9 +20,6 @@ const PATIENCE: Duration = Duration::from_secs(90);
 /// Of a hundred, how many must be caught: of many constants, and of a few, which prove less.
 const CAUGHT: usize = 95;
 const CAUGHT_OF_FEW: usize = 80;
-
-/// Files that stand before many kernels: another block's comparisons may be the ones that notice.
-const SHARED: [&str; 4] = ["number.wgsl", "settings.wgsl", "scan.wgsl", "plan.wgsl"];
 
 struct Mutant {
     file: &'static str,
@@ -99,23 +97,31 @@ fn mutants(chosen: Option<&str>) -> Vec<Mutant> {
     all
 }
 
-/// The comparisons that a file is most likely caught by.
-fn own(file: &str) -> &str {
-    let stem = file.trim_end_matches(".wgsl");
-    match stem {
-        "operations" => "number::",
-        "settings" => "clip::",
-        "plan" => "place::",
-        "normal" => "evaluate::",
-        _ => stem.split('_').next().unwrap_or(stem),
+/// The comparisons that go through a kernel: of its block, and of the units that are made of it.
+fn own(file: &str) -> &'static [&'static str] {
+    match file.split(['_', '.']).next().expect("a name") {
+        "number" | "operations" => &["number::", "clip::", "surface::"],
+        "settings" | "scan" => &[""],
+        "clip" => &["clip::"],
+        "backface" => &["backface::"],
+        "level" => &["level::", "surface::"],
+        "place" | "plan" => &["place::", "evaluate::", "stitch::", "surface::"],
+        "evaluate" | "normal" => &["evaluate::", "surface::"],
+        "stitch" => &["stitch::", "surface::"],
+        "emit" => &["emit::", "surface::"],
+        "single" => &["single::", "d3d11"],
+        "d3d11" => &["d3d11"],
+        "esc" => &["esc::"],
+        _ => panic!("{file}: say which comparisons go through it"),
     }
 }
 
 /// Whether a process that runs these comparisons fails.
-fn fails(folder: &std::path::Path, filter: &str) -> bool {
+fn fails(folder: &std::path::Path, filters: &[&str]) -> bool {
     let exe = std::env::current_exe().expect("this test has a file");
     let mut child = Command::new(exe)
-        .args([filter, "--skip", "mutants::", "--nocapture"])
+        .args(filters)
+        .args(["--skip", "mutants::", "--nocapture"])
         .env("TESSIM_KERNELS", folder)
         .env_remove("TESSIM_MUTANTS")
         .stdout(Stdio::piped())
@@ -149,7 +155,6 @@ fn caught(mutant: &Mutant) -> bool {
         std::fs::write(folder.path().join(file), text).expect("room for kernels");
     }
     fails(folder.path(), own(mutant.file))
-        || (SHARED.contains(&mutant.file) && fails(folder.path(), ""))
 }
 
 #[test]

@@ -2,13 +2,13 @@
 
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use ethnum::{I256, U256};
 use rtl_model::number::{
     Format, Modal, OverflowMode, Rounding, RoundingMode, dispatch, divide, shift_right,
     shift_right_wide, sqrt_ceil,
 };
 use tessim::gpu::{Kernel, rounding};
-use tessim::study::check::Ledger;
 
 /// Operands of an operation: what its kernel promises to take.
 #[derive(Clone, Copy)]
@@ -253,7 +253,7 @@ fn words(value: I256) -> [u32; 8] {
 #[test]
 fn integers_agree_operation_by_operation() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(71);
     for (number, operation) in OPERATIONS.iter().enumerate() {
         for mode in Rounding::ALL {
@@ -291,5 +291,5 @@ fn integers_agree_operation_by_operation() {
             }
         }
     }
-    support::settle(&ledger, 50_000);
+    support::settle(&ledger, Quantity::KernelNumber);
 }

@@ -3,9 +3,9 @@
 use crate::batch::{Batch, Division};
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::place::{DyadicPlacement, Parameters, Placement};
 use tessim::gpu::surface::{PLAN, Source};
-use tessim::study::check::Ledger;
 
 /// The segments of the six lists.
 fn segments(division: &Division) -> Vec<u32> {
@@ -40,7 +40,7 @@ fn reciprocals(division: &Division) -> Vec<u32> {
 #[test]
 fn lists_are_planned_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(73);
     for width in 8..=48 {
         let source = [Source::Levels, Source::Masks][width as usize % 2];
@@ -74,5 +74,5 @@ fn lists_are_planned_alike() {
             }
         }
     }
-    support::settle(&ledger, 5_000);
+    support::settle(&ledger, Quantity::KernelPlaceRandom);
 }

@@ -3,8 +3,8 @@
 
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use tessim::gpu::{Kernel, words};
-use tessim::study::check::Ledger;
 
 /// Words of a row, and the column that is scanned.
 const ROW: usize = 5;
@@ -13,7 +13,7 @@ const COLUMN: usize = 3;
 #[test]
 fn sums_are_those_of_the_rows() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(73);
     for count in [1, 2, 63, 64, 65, 127, 1000, 4096, 4159, 4160, 9999, 32_768] {
         let any: Vec<u32> = (0..ROW * count).map(|_| random.bits() as u32).collect();
@@ -43,5 +43,5 @@ fn sums_are_those_of_the_rows() {
         let got = device.read(&sums, 0, 2 * ROW).unwrap();
         ledger.compare(("scan", "columns"), &want, &got, place, String::new);
     }
-    support::settle(&ledger, 100);
+    support::settle(&ledger, Quantity::KernelScan);
 }

@@ -3,8 +3,8 @@
 
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use tessim::gpu::Kernel;
-use tessim::study::check::Ledger;
 
 /// Numbers of operations, by name: as single_operations.wgsl has them.
 type Operation = (&'static str, fn(f32, f32) -> f32);
@@ -84,7 +84,7 @@ fn run(operation: usize, operands: &[u32]) -> Option<Vec<u32>> {
 
 #[test]
 fn singles_agree_operation_by_operation() {
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(1102);
     let items = 400_000 * support::effort();
     let mut compare = |operation: usize, name, want: &dyn Fn(f32, f32) -> u32| {
@@ -106,13 +106,13 @@ fn singles_agree_operation_by_operation() {
     compare(4, "at_least", &|a, b| (a >= b).into());
     compare(5, "same", &|a, b| (a == b).into());
     if support::device().is_some() {
-        support::settle(&ledger, 100_000);
+        support::settle(&ledger, Quantity::KernelSingle);
     }
 }
 
 #[test]
 fn integers_become_singles_as_the_definition_has_it() {
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(1103);
     let mut operands = Vec::new();
     for _ in 0..50_000 * support::effort() {
@@ -130,5 +130,5 @@ fn integers_become_singles_as_the_definition_has_it() {
         let inputs = || format!("{integer} 2^{scale}");
         ledger.compare(("single", "of integer"), &[want.to_bits()], &[got], String::new, inputs);
     }
-    support::settle(&ledger, 50_000);
+    support::settle(&ledger, Quantity::KernelSingle);
 }

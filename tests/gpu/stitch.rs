@@ -3,13 +3,13 @@
 use crate::batch::Batch;
 use crate::random::Random;
 use crate::support;
+use crate::table::Quantity;
 use tessim::gpu::surface::{self, EVENTS, Source};
-use tessim::study::check::Ledger;
 
 #[test]
 fn triangles_are_stitched_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(75);
     let mut degenerate = 0;
     for round in 0..60 * support::effort() {
@@ -52,5 +52,5 @@ fn triangles_are_stitched_alike() {
         degenerate += want;
     }
     assert!(degenerate > 1000, "only {degenerate} triangles are degenerate");
-    support::settle(&ledger, 60);
+    support::settle(&ledger, Quantity::KernelStitchRandom);
 }

@@ -4,6 +4,7 @@
 use crate::batch::{Division, Expected};
 use crate::random::{self, Kind, Random};
 use crate::support;
+use crate::table::Quantity;
 use rtl_model::backface::{self, Verdict};
 use rtl_model::emit::{self, Screen};
 use rtl_model::evaluate::{self, Evaluate};
@@ -260,7 +261,7 @@ fn divide(batch: &Batch, seen: &Patch, state: &State) -> (Division, Events) {
 #[test]
 fn batches_come_out_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(78);
     for width in 8..=48 {
         for _ in 0..support::effort() {
@@ -270,7 +271,7 @@ fn batches_come_out_alike() {
             Reference::of(&batch).compare(&mut ledger, &batch, &made);
         }
     }
-    support::settle(&ledger, 2_000);
+    support::settle(&ledger, Quantity::KernelUnitRandom);
 }
 
 #[test]

@@ -35,9 +35,16 @@ pub struct Row {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ledger {
     rows: Vec<Row>,
+    stops: bool,
 }
 
 impl Ledger {
+    /// One that panics at the first difference, for who asks only whether there is any.
+    #[must_use]
+    pub fn stopping() -> Self {
+        Self { stops: true, ..Self::default() }
+    }
+
     /// The rows.
     #[must_use]
     pub fn rows(&self) -> &[Row] {
@@ -52,6 +59,10 @@ impl Ledger {
 
     /// Compares the words of one item. A missing or surplus word is a difference; `place` and
     /// `inputs` are asked for only where there is one.
+    ///
+    /// # Panics
+    ///
+    /// At a difference, if it is to stop there.
     pub fn compare(
         &mut self,
         (block, what): (&'static str, &'static str),
@@ -70,6 +81,7 @@ impl Ledger {
         if cpu == gpu {
             return;
         }
+        assert!(!self.stops, "{block} {what}: {}: cpu {cpu:08x?} gpu {gpu:08x?}", place());
         let unequal = cpu.iter().zip(gpu).filter(|(a, b)| a != b).count();
         row.different += (unequal + cpu.len().abs_diff(gpu.len())) as u64;
         if row.first.len() < KEPT {

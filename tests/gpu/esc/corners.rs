@@ -2,12 +2,13 @@
 //! distances on the threshold.
 
 use super::*;
+use crate::table::Quantity;
 
 /// Levels alone, of many patches: some of them so near that projections do not fit.
 #[test]
 fn levels_of_resolution_are_chosen_alike() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     let mut random = Random::new(0x1e7e1);
     for width in 8..=48 {
         for level in [LevelPolicy::Criterion, LevelPolicy::Criterion, LevelPolicy::Distance] {
@@ -38,7 +39,7 @@ fn levels_of_resolution_are_chosen_alike() {
             levels(&mut ledger, device, &batch);
         }
     }
-    support::settle(&ledger, 40_000);
+    support::settle(&ledger, Quantity::KernelResolution);
 }
 
 /// Makes a patch of a few ulps, whose projections are halves of 2^-16 pixels: 1280 pixels are
@@ -98,7 +99,7 @@ fn vertices(ledger: &mut Ledger, device: &Device, batch: &Batch) -> u32 {
 #[test]
 fn a_distance_on_the_threshold_inserts_nothing() {
     let Some(device) = support::device() else { return };
-    let mut ledger = Ledger::default();
+    let mut ledger = support::ledger();
     for width in [24, 32, 48] {
         let fraction = width - 1;
         let one = (1_i64 << fraction) - 1; // the format's greatest: divided by, as any other w
@@ -120,5 +121,5 @@ fn a_distance_on_the_threshold_inserts_nothing() {
     };
     let (near, far) = (count(40), count(64));
     assert!(near < far, "{near} {far}");
-    support::settle(&ledger, 8);
+    support::settle(&ledger, Quantity::KernelNear);
 }
