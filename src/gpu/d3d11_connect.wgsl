@@ -230,7 +230,7 @@ fn connect(
         return;
     }
     let number = settings.first + item;
-    let patch_number = patch_of(number);
+    let patch_number = owner(number, 0u, settings.d);
     let at = patch_number * PATTERN;
     let k = number - starts[patch_number];
     if (settings.c == POINT) {

@@ -45,20 +45,6 @@ const BURSTS = 27u;
 const WRITTEN = 28u;
 const WRITTEN_BURSTS = 29u;
 
-fn patch_of(item: u32) -> u32 {
-    var low = 0u;
-    var high = settings.d;
-    while (high - low > 1u) {
-        let middle = (low + high) / 2u;
-        if (starts[middle] <= item) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 fn count(patch_number: u32, column: u32, more: bool) {
     if (more) {
         atomicAdd(&rows[patch_number * ROW + column], 1u);
@@ -66,14 +52,6 @@ fn count(patch_number: u32, column: u32, more: bool) {
 }
 
 // ---- triangles
-
-fn same_position(a: u32, b: u32) -> bool {
-    var unlike = 0u;
-    for (var k = 0u; k < 8u; k += 1u) {
-        unlike |= vertices[a * VERTEX + k] ^ vertices[b * VERTEX + k];
-    }
-    return unlike == 0u;
-}
 
 fn difference(a: u32, b: u32, axis: u32) -> I64 {
     let of_a = vertices[a * VERTEX + 8u + axis];
@@ -97,7 +75,7 @@ fn triangles(
     if (item >= settings.items) {
         return;
     }
-    let patch_number = patch_of(settings.first + item);
+    let patch_number = owner(settings.first + item, 0u, settings.d);
     let first = point_starts[patch_number] - settings.p;
     let a = first + triangle_words[3u * item];
     let b = first + triangle_words[3u * item + 1u];
@@ -142,7 +120,7 @@ fn edges(
     if (item >= settings.items) {
         return;
     }
-    let patch_number = patch_of(settings.first + item);
+    let patch_number = owner(settings.first + item, 0u, settings.d);
     let at = patch_number * PATTERN;
     var points = 0u;
     for (var k = 0u; k < QUAD_EDGES; k += 1u) {

@@ -226,20 +226,6 @@ fn turn(
 @group(0) @binding(3) var<storage, read_write> vertices: array<u32>;
 @group(0) @binding(4) var<storage, read_write> rows: array<atomic<u32>>;
 
-fn patch_of(item: u32) -> u32 {
-    var low = 0u;
-    var high = settings.d;
-    while (high - low > 1u) {
-        let middle = (low + high) / 2u;
-        if (starts[middle] <= item) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 // A coordinate of the point of a net. Rows first, then the curve along v.
 fn coordinate(net: u32, axis: u32, u: array<I64, 4>, v: array<I64, 4>) -> I64 {
     var rows_of: array<I64, 4>;
@@ -311,7 +297,7 @@ fn domain(
     if (item >= settings.items) {
         return;
     }
-    let patch_number = patch_of(settings.first + item);
+    let patch_number = owner(settings.first + item, 0u, settings.d);
     let at = item * VERTEX;
     let u = basis(vertices[at + 8u]);
     let v = basis(vertices[at + 9u]);
@@ -382,7 +368,7 @@ fn cracks(
     if (is_end(u) == is_end(v)) {
         return;
     }
-    let patch_number = patch_of(settings.first + item);
+    let patch_number = owner(settings.first + item, 0u, settings.d);
     if (is_crack(patch_number * ORIENTATIONS * NET, u, v)) {
         atomicAdd(&rows[patch_number * ROW + CRACKS], 1u);
     }

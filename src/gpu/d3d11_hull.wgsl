@@ -266,8 +266,9 @@ fn count_fate(item: u32) {
     let became = fate[4u * item];
     rows[at] = u32(became == 0u);
     rows[at + 1u] = u32(became != 0u);
-    rows[at + 2u] = select(0u, fate[4u * item + 1u], became != 0u);
-    rows[at + 3u] = select(0u, fate[4u * item + 2u], became != 0u);
+    // Both 0 where it is clipped.
+    rows[at + 2u] = fate[4u * item + 1u];
+    rows[at + 3u] = fate[4u * item + 2u];
     rows[at + 4u] = u32(became == 1u);
     rows[at + 5u] = u32(became == 2u);
 }

@@ -149,7 +149,7 @@ fn points(
         return;
     }
     let number = settings.first + item;
-    let patch_number = patch_of(number);
+    let patch_number = owner(number, 0u, settings.d);
     let made = point(patch_number * PATTERN, number - starts[patch_number]);
     out[item * settings.e + settings.f] = made.x;
     out[item * settings.e + settings.f + 1u] = made.y;

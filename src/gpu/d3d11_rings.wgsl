@@ -22,8 +22,7 @@ const SEGMENTS = 8u;
 const POINTS = 14u;
 const PRIMITIVES = 15u;
 
-// What a pattern is: nothing, rings, or one triangle or two.
-const CULLED = 0u;
+// What a pattern is, which is 0 where it is nothing: rings, or one triangle or two.
 const RINGS = 1u;
 const LEAST_ONE = 2u;
 
@@ -60,22 +59,6 @@ fn half_of(value: u32, odd: u32) -> u32 {
 fn points_in_tri(side: u32) -> u32 {
     let half = (side + 1u) / 2u;
     return 3u * half * (half + 1u - (side & 1u)) + 1u - (side & 1u);
-}
-
-// The patch that an item belongs to: the last whose items begin at it or before, of those that have
-// any.
-fn patch_of(item: u32) -> u32 {
-    var low = 0u;
-    var high = settings.d;
-    while (high - low > 1u) {
-        let middle = (low + high) / 2u;
-        if (starts[middle] <= item) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
 }
 
 fn segments(at: u32, k: u32) -> u32 {

@@ -17,7 +17,7 @@
 // Word 0: coordinates that did not fit.
 @group(0) @binding(4) var<storage, read_write> events: array<atomic<u32>>;
 @group(0) @binding(5) var<storage, read_write> patches: array<u32>;
-@group(0) @binding(6) var<storage, read_write> vertex_starts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> starts: array<u32>;
 @group(0) @binding(7) var<storage, read_write> vertices: array<u32>;
 
 // Words of a line: for each coordinate its four control points, then D1 D2 D3 from the near end
@@ -254,18 +254,6 @@ fn patch_of_line(line: u32) -> u32 {
     return low;
 }
 
-fn patch_of_vertex(vertex: u32) -> u32 {
-    var low = settings.b;
-    var high = settings.c;
-    while (high - low > 1u) {
-        let middle = (low + high) / 2u;
-        let before = vertex_starts[middle] <= vertex;
-        low = select(low, middle, before);
-        high = select(middle, high, before);
-    }
-    return low;
-}
-
 // Where a vertex stands: its line, that line's list, and its entry there.
 struct Where {
     line: u32,
@@ -308,9 +296,9 @@ fn evaluate(
     if (item >= settings.items) {
         return;
     }
-    let number = patch_of_vertex(settings.e + item);
+    let number = owner(settings.e + item, settings.b, settings.c);
     let plan = number * PLAN;
-    let local = settings.e + item - vertex_starts[number];
+    let local = settings.e + item - starts[number];
     let boundary = plans[plan + BOUNDARY];
     var place = on_boundary(plan, min(local, boundary - 1u));
     if (local >= boundary) {

@@ -5,7 +5,7 @@
 
 // b and c: the first patch, and the one behind the last. e: number of their first vertex.
 @group(0) @binding(1) var<storage, read_write> patches: array<u32>;
-@group(0) @binding(2) var<storage, read_write> vertex_starts: array<u32>;
+@group(0) @binding(2) var<storage, read_write> starts: array<u32>;
 @group(0) @binding(3) var<storage, read_write> vertices: array<u32>;
 // Eight words a vertex.
 @group(0) @binding(4) var<storage, read_write> planes_out: array<u32>;
@@ -18,18 +18,6 @@ const COEFFICIENT = 31u;
 // cut off before it is rounded: by definition, and it can move a tie.
 const FINE = 40u;
 const COARSE = 64u;
-
-fn patch_of_vertex(vertex: u32) -> u32 {
-    var low = settings.b;
-    var high = settings.c;
-    while (high - low > 1u) {
-        let middle = (low + high) / 2u;
-        let before = vertex_starts[middle] <= vertex;
-        low = select(low, middle, before);
-        high = select(middle, high, before);
-    }
-    return low;
-}
 
 // The point of a curve, and three times less than its derivative.
 struct Tangent {
@@ -95,7 +83,7 @@ fn planes(
     if (item >= settings.items) {
         return;
     }
-    let at = patch_of_vertex(settings.e + item) * PATCH;
+    let at = owner(settings.e + item, settings.b, settings.c) * PATCH;
     let u = vertices[VERTEX * item + 8u];
     let v = vertices[VERTEX * item + 9u];
     var s = array<I64, 4>(NONE64, NONE64, NONE64, NONE64);

@@ -6,7 +6,7 @@
 
 // a: 1 where lists are masks. b and c: the first patch, and the one behind the last. d, e: numbers
 // of their first triangle and vertex.
-@group(0) @binding(1) var<storage, read_write> triangle_starts: array<u32>;
+@group(0) @binding(1) var<storage, read_write> starts: array<u32>;
 @group(0) @binding(2) var<storage, read_write> triangles: array<u32>;
 @group(0) @binding(3) var<storage, read_write> plans: array<u32>;
 @group(0) @binding(4) var<storage, read_write> vertex_starts: array<u32>;
@@ -30,16 +30,17 @@ struct Strip {
     inner_entry: u32,
 }
 
-fn patch_of_triangle(triangle: u32) -> u32 {
-    var low = settings.b;
-    var high = settings.c;
-    while (high - low > 1u) {
-        let middle = (low + high) / 2u;
-        let before = triangle_starts[middle] <= triangle;
-        low = select(low, middle, before);
-        high = select(middle, high, before);
-    }
-    return low;
+// Between rows of n and of m segments.
+fn between(outer: vec2<u32>, n: u32, inner: vec2<u32>, m: u32, mirrored: bool) -> Strip {
+    var strip = Strip();
+    strip.outer = outer.x;
+    strip.outer_step = outer.y;
+    strip.outer_segments = n;
+    strip.inner = inner.x;
+    strip.inner_step = inner.y;
+    strip.inner_segments = m;
+    strip.mirrored = mirrored;
+    return strip;
 }
 
 // ---- Where rows stand
@@ -156,12 +157,11 @@ fn half_strip(plan: u32, side: u32, part: u32, n: u32, m: u32) -> Strip {
     let inner = interior_row(plan, side, end);
     let mirrored = (side >= 2u) != (end == 1u);
     if (!across) {
-        return Strip(outer.x, outer.y, n, inner.x, inner.y, m, mirrored, 0u, 0u, 0u);
+        return between(outer, n, inner, m, mirrored);
     }
     let below_two = u32(plans[plan + SEGMENTS + 4u] == 3u);
-    let first = outer.x + n * outer.y;
-    let inside = inner.x + m * inner.y;
-    return Strip(first, outer.y, 1u, inside, inner.y, below_two, mirrored, 0u, 0u, 0u);
+    let first = vec2(outer.x + n * outer.y, outer.y);
+    return between(first, 1u, vec2(inner.x + m * inner.y, inner.y), below_two, mirrored);
 }
 
 fn fractional_side(plan: u32, side: u32, along: u32, number: u32) -> vec3<u32> {
@@ -180,9 +180,10 @@ fn dyadic_side(plan: u32, side: u32, along: u32, number: u32) -> vec3<u32> {
     let outer = edge_row(plan, side, 0u);
     let inner = interior_row(plan, side, 0u);
     let n = plans[plan + SEGMENTS + side];
-    let list = 4u + (side & 1u);
-    let strip =
-        Strip(outer.x, outer.y, n, inner.x, inner.y, along - 1u, side >= 2u, side, list, 1u);
+    var strip = between(outer, n, inner, along - 1u, side >= 2u);
+    strip.outer_list = side;
+    strip.inner_list = 4u + (side & 1u);
+    strip.inner_entry = 1u;
     return triangle_of(strip, plan, number);
 }
 
@@ -194,8 +195,9 @@ fn zipped(plan: u32, number: u32) -> vec3<u32> {
     let inner = edge_row(plan, opposite, 0u);
     let n = plans[plan + SEGMENTS + side];
     let m = plans[plan + SEGMENTS + opposite];
-    let mirrored = side == 3u;
-    let strip = Strip(outer.x, outer.y, n, inner.x, inner.y, m, mirrored, side, opposite, 0u);
+    var strip = between(outer, n, inner, m, side == 3u);
+    strip.outer_list = side;
+    strip.inner_list = opposite;
     return triangle_of(strip, plan, number);
 }
 
@@ -235,22 +237,14 @@ fn stitch(
     if (item >= settings.items) {
         return;
     }
-    let number = patch_of_triangle(settings.d + item);
-    let corners = patch_triangle(number * PLAN, settings.d + item - triangle_starts[number]);
+    let number = owner(settings.d + item, settings.b, settings.c);
+    let corners = patch_triangle(number * PLAN, settings.d + item - starts[number]);
     for (var k = 0u; k < 3u; k += 1u) {
         triangles[3u * item + k] = corners[k];
     }
 }
 
 // ---- Degenerate triangles
-
-fn same_position(a: u32, b: u32) -> bool {
-    var different = 0u;
-    for (var k = 0u; k < 8u; k += 1u) {
-        different |= vertices[VERTEX * a + k] ^ vertices[VERTEX * b + k];
-    }
-    return different == 0u;
-}
 
 // Counts the triangles that have two equal clip positions.
 @compute @workgroup_size(64)
@@ -262,7 +256,7 @@ fn degenerate(
     if (item >= settings.items) {
         return;
     }
-    let number = patch_of_triangle(settings.d + item);
+    let number = owner(settings.d + item, settings.b, settings.c);
     let first = vertex_starts[number] - settings.e;
     var equal = false;
     for (var k = 0u; k < 3u; k += 1u) {

@@ -6,7 +6,7 @@ use crate::support;
 use crate::table::Quantity;
 use rtl_model::d3d11::{self as cpu, Partitioning, Tessellator};
 use tessim::gpu::d3d11::{Domain, FACTORS, Output, Tessellation, patterns};
-use tessim::gpu::{Backend, Device, Sources};
+use tessim::gpu::{Backend, Device};
 use tessim::study::check::Ledger;
 
 const DOMAINS: [(Domain, cpu::Domain); 3] = [
@@ -120,7 +120,7 @@ fn patterns_agree_for_every_count_of_segments() {
 #[test]
 fn patterns_are_the_same_where_buffers_are_small() {
     let Some(device) = support::device() else { return };
-    let mut small = Device::open(Backend::Auto, Sources::default()).unwrap();
+    let mut small = support::another(Backend::Auto).unwrap();
     small.limit_words(30_000); // a pattern of 4225 points has 24576 numbers
     let mut random = Random::new(1106);
     let factors: Vec<u32> = (0..400).flat_map(|_| draw(&mut random)).collect();

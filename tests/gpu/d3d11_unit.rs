@@ -1,25 +1,26 @@
 //! Unit `d3d11` from the hull shader on: whole traces beside a run, with everything that it counts,
 //! and random patches of every width beside the shaders and the tessellator.
 
+mod shaders;
+
 use crate::d3d11::PARTITIONINGS;
 use crate::random::{self, Kind, Random};
 use crate::support;
 use crate::table::Quantity;
 use crate::walk;
 use rtl_model::backface::{self, Verdict};
+use rtl_model::clip;
 use rtl_model::counter::{Counter, DECLARATIONS};
 use rtl_model::d3d11::wave::Waves;
 use rtl_model::d3d11::{Factors, Output, Tessellator};
 use rtl_model::level::{self, Criterion, Events, State};
-use rtl_model::number::{Format, Modal, Overflow, OverflowMode, Rounding, RoundingMode, dispatch};
-use rtl_model::patch::{Depth, Level, Levels, ONE, Patch, Triangle, Vertex, View};
-use rtl_model::{clip, port};
+use rtl_model::number::{Format, Overflow, Rounding};
+use rtl_model::patch::{Depth, Level, Levels, Patch, Triangle, Vertex, View};
+use shaders::{factors, shade};
 use tessim::config::d3d11::Form;
 use tessim::config::{Arithmetic, Config, DomainKind, FactorPolicy, Unit};
 use tessim::gpu::d3d11::{Chosen, D3d11, d3d11, from_hull};
-use tessim::gpu::{Backend, Device, LEVELS, Made, Settings, Sources, VERTEX, push_patch, words};
-use tessim::shader::domain::{self, Evaluator, Fixed, Orientations, Single};
-use tessim::shader::hull::{self, Adaptive};
+use tessim::gpu::{Backend, Device, LEVELS, Made, Settings, VERTEX, push_patch, words};
 use tessim::sink::{FrameInfo, PatchMesh, Sink};
 use tessim::study::check::Ledger;
 use tessim::trace::open::Trace;
@@ -219,102 +220,6 @@ fn singles(random: &mut Random, patch: &Patch, view: &View) -> [[f32; 4]; 16] {
     points
 }
 
-/// Factors as the hull shader writes them.
-fn factors(
-    config: &Config,
-    view: &View,
-    patch: &Patch,
-    state: &State,
-    shaded: &[[f32; 4]; 16],
-) -> [u32; 6] {
-    let state = reachable(config, state);
-    let [min, max] = [state.min, state.max].map(|level| level.fx16() as f32 / 65536.0);
-    let factors = if config.hull.policy == FactorPolicy::Adaptive {
-        let near = (view.near as f64 * f64::from(-view.position.fraction).exp2()) as f32;
-        let settings = hull::Settings {
-            candidates: config.hull.candidates,
-            pixels: config.hull.pixels as f32,
-            viewport: view.viewport,
-            near,
-        };
-        Adaptive::new(settings).factors(shaded).factors.map(|factor| factor.clamp(min, max))
-    } else {
-        let Levels { edges: [v0, u1, v1, u0], interior: [u, v] } =
-            level::accept(patch, view, &state).0;
-        [u0, v0, u1, v1, u, v].map(|level| level.fx16() as f32 / 65536.0)
-    };
-    let pow2 = config.tessellator.partitioning == rtl_model::d3d11::Partitioning::Pow2;
-    let up = |factor: f32| (factor.ceil() as u32).next_power_of_two() as f32;
-    factors.map(|factor| if pow2 { up(factor) } else { factor }.to_bits())
-}
-
-/// What the domain shader makes of the sites: vertices, coordinates that did not fit, cracks.
-fn shade(
-    config: &Config,
-    view: &View,
-    patch: &Patch,
-    shaded: &[[f32; 4]; 16],
-    sites: &[[u32; 2]],
-) -> (Vec<Vertex>, u64, u64) {
-    let boundary: Vec<[u32; 2]> = sites
-        .iter()
-        .copied()
-        .filter(|[u, v]| [0, ONE].contains(u) != [0, ONE].contains(v))
-        .collect();
-    match config.domain.arithmetic {
-        Arithmetic::F32 => {
-            let single = Single::new(config.form());
-            let net = single.net(shaded);
-            let mut points = Vec::new();
-            single.visit(&net, sites, &mut |p, _| points.push(p.map(f32::to_bits)));
-            let accept = Accept { points, sites, format: view.position };
-            let (rounding, overflow) = (config.position.rounding, config.position.overflow);
-            let (vertices, over) = dispatch(rounding, overflow, accept);
-            let turned = Orientations::new(&single, shaded);
-            let cracks = boundary.iter().filter(|&&site| turned.crack(site)).count();
-            (vertices, over, cracks as u64)
-        }
-        Arithmetic::Fixed => {
-            let settings = domain::Settings {
-                position: view.position,
-                weight_bits: config.domain.weight_bits,
-                rounding: config.evaluate.rounding,
-                overflow: config.position.overflow,
-            };
-            let fixed = Fixed::new(config.form(), settings);
-            let (mut vertices, mut over) = (Vec::new(), 0);
-            fixed.visit(&fixed.net(&patch.points), sites, &mut |position, overflows| {
-                let [u, v] = sites[vertices.len()];
-                vertices.push(Vertex { position, u, v });
-                over += u64::from(overflows);
-            });
-            let turned = Orientations::new(&fixed, &patch.points);
-            let cracks = boundary.iter().filter(|&&site| turned.crack(site)).count();
-            (vertices, over, cracks as u64)
-        }
-    }
-}
-
-struct Accept<'a> {
-    points: Vec<[u32; 4]>,
-    sites: &'a [[u32; 2]],
-    format: Format,
-}
-
-impl Modal for Accept<'_> {
-    type Output = (Vec<Vertex>, u64);
-
-    fn run<R: RoundingMode, O: OverflowMode>(self) -> (Vec<Vertex>, u64) {
-        let mut over = 0;
-        let accept = |(bits, &[u, v]): (&[u32; 4], &[u32; 2])| {
-            let quantised = port::accept::<R, O>(*bits, self.format);
-            over += u64::from(quantised.overflows);
-            Vertex { position: quantised.point, u, v }
-        };
-        (self.points.iter().zip(self.sites).map(accept).collect(), over)
-    }
-}
-
 /// A draw's state: levels that a pattern of a few hundred points has, and some of all.
 fn state(random: &mut Random) -> State {
     let most = if random.integer(0, 40) == 0 { 80.0 } else { random.of([3.0, 7.0, 12.0, 30.0]) };
@@ -325,6 +230,11 @@ fn state(random: &mut Random) -> State {
     let criterion = match random.integer(0, 2) {
         0 => Criterion::Flatness { pixels },
         1 => Criterion::EdgeLength { pixels },
+        // Now and then next to a whole number of segments.
+        _ if random.bits() & 1 == 0 => {
+            let whole = u64::from(random.integer(1, most as u32)) << 16;
+            Criterion::Fixed { level: Level::clamped(whole - 1 + u64::from(random.integer(0, 2))) }
+        }
         _ => Criterion::Fixed { level: level(random.octaves(1.0, most)) },
     };
     State { criterion, min, max }
@@ -341,7 +251,7 @@ fn compare_width(ledger: &mut Ledger, device: &Device, random: &mut Random, widt
     let view = View { position, near, depth, ..support::view(width) };
     let mut batch = Batch::default();
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-    let (mut shaded_points, mut sums) = (0, [0; 2]);
+    let (mut shaded_points, mut sums, mut levels) = (0, [0; 2], [0; 6]);
     let mut tessellator = Tessellator::default();
     for _ in 0..6 {
         let kind = random.of(Kind::ALL);
@@ -352,6 +262,11 @@ fn compare_width(ledger: &mut Ledger, device: &Device, random: &mut Random, widt
         if batch.fates[batch.fates.len() - 4] != 2 {
             continue;
         }
+        let criterion = &batch.patches[batch.patches.len() - 7];
+        let &[.., clamped, near, overflows, splits, _, _] = &batch.levels[..] else { panic!() };
+        let flat = [u32::from(*criterion == 0), u32::from(*criterion == 1)];
+        let events = [flat[0], flat[1], splits, clamped, near, overflows];
+        levels.iter_mut().zip(events).for_each(|(sum, count)| *sum += count);
         let bits = factors(&config, &view, &patch, &state, &shaded);
         let processed = Factors::quad(config.tessellator.partitioning, bits).unwrap();
         tessellator.accept(&processed, Output::Cw);
@@ -370,14 +285,21 @@ fn compare_width(ledger: &mut Ledger, device: &Device, random: &mut Random, widt
         ledger.compare(("d3d11", "vertices"), want, got, place, inputs);
     }
     ledger.compare(("d3d11", "triangles"), &triangles, &made.triangles, place, || "".into());
-    let of = |name| {
-        let found = made.counts.iter().find(|(counter, _)| *counter == ("domain", name));
+    let counted = |name| {
+        let found = made.counts.iter().find(|(counter, _)| *counter == name);
         found.expect("a counter of the unit").1 as u32
     };
+    let of = |name| counted(("domain", name));
     let want = [vertices.len() as u32, shaded_points as u32, sums[0] as u32, sums[1] as u32];
     let cracks = if config.is_order_invariant() { want[3] } else { of("cracks") };
     let got = [made.vertices.len() as u32, of("invocations"), of("overflows"), cracks];
     ledger.compare(("d3d11", "counts"), &want, &got, place, String::new);
+    if config.hull.policy == FactorPolicy::Criterion {
+        let names = ["patches.flatness", "patches.edge_length", "splits", "levels.clamped"];
+        let got = [names[0], names[1], names[2], names[3], "edges.near", "overflows"]
+            .map(|name| counted(("level", name)));
+        ledger.compare(("d3d11", "levels"), &levels, &got, place, String::new);
+    }
 }
 
 #[test]
@@ -396,7 +318,7 @@ fn random_patches_come_out_of_the_unit_alike_in_every_width() {
 #[test]
 fn the_unit_makes_the_same_where_buffers_are_small() {
     let Some(device) = support::device() else { return };
-    let mut small = Device::open(Backend::Auto, Sources::default()).unwrap();
+    let mut small = support::another(Backend::Auto).unwrap();
     small.limit_words(3000); // two patches' nets in eight orientations
     let mut random = Random::new(1107);
     let mut config = config(&mut random);
@@ -446,4 +368,39 @@ fn the_unit_by_itself_chooses_what_it_is_given_otherwise() {
         }
     }
     assert!(triangles > 1000, "only {triangles} words of triangles");
+}
+
+#[test]
+fn levels_are_held_within_what_a_partitioning_reaches() {
+    let Some(device) = support::device() else { return };
+    let mut random = Random::new(1109);
+    let view = support::view(32);
+    for partitioning in PARTITIONINGS {
+        for policy in [FactorPolicy::Criterion, FactorPolicy::Adaptive] {
+            for [min, max] in [[70, 100], [1, 100]] {
+                let mut config = Config { unit: Unit::D3d11, ..Config::default() };
+                config.tessellator.partitioning = partitioning;
+                config.hull.policy = policy;
+                config.clip.enabled = false;
+                let mut patch = random::patch(&mut random, Kind::Sheet, view.position.max());
+                patch.cull = false;
+                let level = |segments: u64| Level::clamped(segments << 16);
+                let criterion = Criterion::Fixed { level: level(100) };
+                let state = State { criterion, min: level(min), max: level(max) };
+                let mut batch = Batch::default();
+                batch.push(&config, &view, &patch, &state, 0);
+                let shaded = singles(&mut random, &patch, &view);
+                batch.shaded.extend(shaded.as_flattened().iter().map(|c| c.to_bits()));
+                let made = d3d11(device, &batch.work(&config, &view)).unwrap();
+                // Nothing asks the adaptive policy for more than its candidates, but for `min`.
+                if policy == FactorPolicy::Criterion || min > 1 {
+                    let odd = partitioning == rtl_model::d3d11::Partitioning::Odd;
+                    let segments = if odd { 63 } else { 64 };
+                    let want = (segments + 1) * (segments + 1);
+                    assert_eq!(made.vertices.len(), VERTEX * want, "{partitioning:?} {policy:?}");
+                }
+                assert!(made == batch.made(device, &config, &view), "{partitioning:?} {policy:?}");
+            }
+        }
+    }
 }

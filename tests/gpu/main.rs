@@ -12,6 +12,7 @@ mod backface;
 mod batch;
 mod clip;
 mod d3d11;
+mod d3d11_count;
 mod d3d11_unit;
 mod emit;
 mod esc;

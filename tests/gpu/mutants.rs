@@ -1,9 +1,10 @@
 //! Whether the comparisons would notice a wrong constant: each number in each kernel is made one
 //! larger, one at a time, and the comparisons that go through the kernel are run again by another
-//! process.
+//! process. Where they notice nothing, one smaller: a loop that makes one more turn may do nothing
+//! in it, while one turn less shows that its bound matters. Both are reported by themselves.
 //!
 //! By default one of each file; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every
-//! seventh, and `TESSIM_MUTANTS=stem` those of one file. Survivors are printed with their lines;
+//! seventh, `TESSIM_MUTANTS=stem` those of one file, `TESSIM_MUTANTS=stem:9` of its line. Survivors are printed with their lines;
 //! docs/kernels.md explains those that are known.
 
 use std::io::{BufRead, BufReader};
@@ -21,12 +22,26 @@ const PATIENCE: Duration = Duration::from_secs(90);
 const CAUGHT: usize = 95;
 const CAUGHT_OF_FEW: usize = 80;
 
+/// A constant that is changed.
 struct Mutant {
     file: &'static str,
     line: usize,
-    was: String,
-    becomes: String,
-    text: String,
+    at: Range<usize>,
+}
+
+impl Mutant {
+    fn was(&self) -> &'static str {
+        &self.whole()[self.at.clone()]
+    }
+
+    fn whole(&self) -> &'static str {
+        Sources::shipped(self.file).expect("a file that is listed")
+    }
+
+    fn text(&self, becomes: &str) -> String {
+        let whole = self.whole();
+        [&whole[..self.at.start], becomes, &whole[self.at.end..]].concat()
+    }
 }
 
 /// The numbers of a kernel's text: not in comments, nor in attributes such as `@binding(1)`.
@@ -54,22 +69,19 @@ fn numbers(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// One more, in the same notation.
-fn one_more(literal: &str) -> String {
+/// So many more, in the same notation; `None`: below 0, where it is not said how many bits wrap.
+fn moved(literal: &str, by: i64) -> Option<String> {
     let (digits, suffix) = match literal.strip_suffix(['u', 'i']) {
         Some(digits) => (digits, &literal[digits.len()..]),
         None => (literal, ""),
     };
-    match digits.strip_prefix("0x") {
-        Some(hex) => {
-            let value = u32::from_str_radix(hex, 16).expect("a hexadecimal number");
-            format!("{:#x}{suffix}", value.wrapping_add(1))
-        }
-        None => {
-            let value: u64 = digits.parse().expect("a decimal number");
-            format!("{}{suffix}", (value + 1) & 0xffff_ffff)
-        }
+    let (digits, radix) = digits.strip_prefix("0x").map_or((digits, 10), |hex| (hex, 16));
+    let value = i64::from_str_radix(digits, radix).expect("a number") + by;
+    if value < 0 && suffix != "u" {
+        return None;
     }
+    let value = value as u32;
+    Some(if radix == 16 { format!("{value:#x}{suffix}") } else { format!("{value}{suffix}") })
 }
 
 fn mutants(chosen: Option<&str>) -> Vec<Mutant> {
@@ -78,7 +90,13 @@ fn mutants(chosen: Option<&str>) -> Vec<Mutant> {
         let text = Sources::shipped(file).expect("a file that is listed");
         let numbers = numbers(text);
         let stem = file.trim_end_matches(".wgsl");
-        let every = match chosen {
+        let (name, of_line) = match chosen.and_then(|name| name.split_once(':')) {
+            Some((name, line)) => {
+                (Some(name), Some(line.parse::<usize>().expect("a line's number")))
+            }
+            None => (chosen, None),
+        };
+        let every = match name {
             None => numbers.len().max(1),
             Some(name) if name == stem => 1,
             Some(name) => match name.parse() {
@@ -86,12 +104,11 @@ fn mutants(chosen: Option<&str>) -> Vec<Mutant> {
                 Err(_) => continue,
             },
         };
-        for range in numbers.into_iter().skip(every / 2).step_by(every) {
-            let was = text[range.clone()].to_owned();
-            let becomes = one_more(&was);
-            let line = text[..range.start].lines().count().max(1);
-            let text = [&text[..range.start], &becomes, &text[range.end..]].concat();
-            all.push(Mutant { file, line, was, becomes, text });
+        for at in numbers.into_iter().skip(every / 2).step_by(every) {
+            let line = text[..=at.start].lines().count();
+            if of_line.is_none_or(|wanted| wanted == line) {
+                all.push(Mutant { file, line, at });
+            }
         }
     }
     all
@@ -108,6 +125,8 @@ fn own(file: &str) -> &'static [&'static str] {
         "place" | "plan" => &["place::", "evaluate::", "stitch::", "surface::"],
         "evaluate" | "normal" => &["evaluate::", "surface::"],
         "stitch" => &["stitch::", "surface::"],
+        "owner" => &["stitch::", "evaluate::", "d3d11"],
+        "vertex" => &["stitch::", "d3d11"],
         "emit" => &["emit::", "surface::"],
         "single" => &["single::", "d3d11"],
         "d3d11" => &["d3d11"],
@@ -148,13 +167,30 @@ fn fails(folder: &std::path::Path, filters: &[&str]) -> bool {
     failed || !(status.success() || status.code().is_none())
 }
 
-fn caught(mutant: &Mutant) -> bool {
+/// Whether a constant's being something else is noticed.
+fn caught(mutant: &Mutant, becomes: &str) -> bool {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for file in Sources::files() {
-        let text = if file == mutant.file { &mutant.text } else { Sources::shipped(file).unwrap() };
+        let changed = (file == mutant.file).then(|| mutant.text(becomes));
+        let text = changed.as_deref().or(Sources::shipped(file)).expect("it is listed");
         std::fs::write(folder.path().join(file), text).expect("room for kernels");
     }
     fails(folder.path(), own(mutant.file))
+}
+
+/// Whether it is noticed that a constant is one larger, and that it is larger or smaller.
+fn tried(mutant: &Mutant) -> [bool; 2] {
+    let noticed = |by: i64| {
+        let becomes = moved(mutant.was(), by);
+        let noticed = becomes.as_deref().is_some_and(|becomes| caught(mutant, becomes));
+        if !noticed {
+            let (Mutant { file, line, .. }, was) = (mutant, mutant.was());
+            println!("survives: {file}:{line}: {was} as {}", becomes.as_deref().unwrap_or("-1"));
+        }
+        noticed
+    };
+    let larger = noticed(1);
+    [larger, larger || noticed(-1)]
 }
 
 #[test]
@@ -165,33 +201,41 @@ fn a_changed_constant_is_noticed() {
     }
     let chosen = std::env::var("TESSIM_MUTANTS").ok();
     let mutants = mutants(chosen.as_deref());
-    let (next, survivors) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let (next, results) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
-        while let Some((number, mutant)) =
-            Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|n| Some((n, mutants.get(n)?)))
-        {
-            if !caught(mutant) {
-                let Mutant { file, line, was, becomes, .. } = mutant;
-                println!("survives: {file}:{line}: {was} as {becomes}");
-                survivors.lock().unwrap().push((number, *file));
-            }
+        while let Some(mutant) = mutants.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let noticed = tried(mutant);
+            results.lock().unwrap().push((mutant.file, noticed));
         }
     };
     std::thread::scope(|scope| {
         scope.spawn(work);
         work();
     });
-    let survivors = survivors.into_inner().unwrap();
+    let results = results.into_inner().unwrap();
     for file in Sources::files() {
-        let all = mutants.iter().filter(|mutant| mutant.file == file).count();
-        let left = survivors.iter().filter(|(_, name)| *name == file).count();
-        println!("{file}: {} of {all} constants caught", all - left);
+        println!("{file}: {}", counts(results.iter().filter(|(name, _)| *name == file)).0);
     }
-    let (all, left) = (mutants.len(), survivors.len());
-    println!("in all: {} of {all} constants caught", all - left);
+    let (line, [all, _, either]) = counts(results.iter());
+    println!("in all: {line}");
     assert!(all > 0, "there is nothing to change");
     let least = if chosen.is_some() { CAUGHT } else { CAUGHT_OF_FEW };
-    assert!(100 * (all - left) >= least * all, "{left} of {all} changes go unnoticed");
+    assert!(100 * either >= least * all, "{line}");
+}
+
+/// A line of how many constants were changed, how many of the larger ones were noticed, and how
+/// many either way; and the three numbers.
+fn counts<'a>(
+    results: impl Iterator<Item = &'a (&'static str, [bool; 2])>,
+) -> (String, [usize; 3]) {
+    let [mut all, mut larger, mut either] = [0; 3];
+    for (_, noticed) in results {
+        all += 1;
+        larger += usize::from(noticed[0]);
+        either += usize::from(noticed[1]);
+    }
+    let line = format!("of {all} constants {larger} caught one larger, {either} larger or smaller");
+    (line, [all, larger, either])
 }
 
 #[test]
@@ -199,5 +243,8 @@ fn numbers_are_found_where_they_are_constants() {
     let text = "@binding(1) var a: vec2<u32>; // 3\nlet b1 = 0x1fu + 7; c[63u] @workgroup_size(64)";
     let found: Vec<_> = numbers(text).into_iter().map(|range| &text[range]).collect();
     assert_eq!(found, ["0x1fu", "7", "63u"]);
-    assert_eq!(["0x1fu", "7", "63u", "0xffffffffu"].map(one_more), ["0x20u", "8", "64u", "0x0u"]);
+    let larger = ["0x1fu", "7", "63u", "0xffffffffu"].map(|literal| moved(literal, 1).unwrap());
+    assert_eq!(larger, ["0x20u", "8", "64u", "0x0u"]);
+    assert_eq!(moved("0u", -1).unwrap(), "4294967295u");
+    assert_eq!(moved("0", -1), None);
 }
