@@ -43,12 +43,13 @@ failed=()
 
 # A step runs to its end whatever became of the ones before: one run shows all that is wrong.
 step() {
-    local name="$1"
+    local name="$1" begun=$SECONDS
     shift
     echo "== $name"
     if ! "$@" 2>&1 | tee -a "$log"; then
         failed+=("$name")
     fi
+    echo "-- $name: $((SECONDS - begun)) s"
 }
 
 need() {

@@ -3,8 +3,8 @@
 //! process. Where they notice nothing, one smaller: a loop that makes one more turn may do nothing
 //! in it, while one turn less shows that its bound matters. Both are reported by themselves.
 //!
-//! By default one of each file; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every
-//! seventh, `TESSIM_MUTANTS=stem` those of one file, `TESSIM_MUTANTS=stem:9` of its line. Survivors are printed with their lines;
+//! By default one in 300; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every seventh,
+//! `TESSIM_MUTANTS=stem` those of one file, `TESSIM_MUTANTS=stem:9` of its line. Survivors are printed with their lines;
 //! docs/kernels.md explains those that are known.
 
 use std::io::{BufRead, BufReader};
@@ -84,34 +84,24 @@ fn moved(literal: &str, by: i64) -> Option<String> {
     Some(if radix == 16 { format!("{value:#x}{suffix}") } else { format!("{value}{suffix}") })
 }
 
+/// All constants, of a file and line where such is named.
 fn mutants(chosen: Option<&str>) -> Vec<Mutant> {
-    let mut all = Vec::new();
-    for file in Sources::files() {
+    let chosen = chosen.unwrap_or("300");
+    let every = chosen.parse().ok();
+    let (stem, of_line) = chosen.split_once(':').unwrap_or((chosen, ""));
+    let of_line: Option<usize> = of_line.parse().ok();
+    let all = Sources::files().flat_map(|file| {
         let text = Sources::shipped(file).expect("a file that is listed");
-        let numbers = numbers(text);
-        let stem = file.trim_end_matches(".wgsl");
-        let (name, of_line) = match chosen.and_then(|name| name.split_once(':')) {
-            Some((name, line)) => {
-                (Some(name), Some(line.parse::<usize>().expect("a line's number")))
-            }
-            None => (chosen, None),
-        };
-        let every = match name {
-            None => numbers.len().max(1),
-            Some(name) if name == stem => 1,
-            Some(name) => match name.parse() {
-                Ok(every) => every,
-                Err(_) => continue,
-            },
-        };
-        for at in numbers.into_iter().skip(every / 2).step_by(every) {
+        let wanted = every.is_some() || file.trim_end_matches(".wgsl") == stem;
+        let found = if wanted { numbers(text) } else { Vec::new() };
+        found.into_iter().map(move |at| {
             let line = text[..=at.start].lines().count();
-            if of_line.is_none_or(|wanted| wanted == line) {
-                all.push(Mutant { file, line, at });
-            }
-        }
-    }
-    all
+            Mutant { file, line, at }
+        })
+    });
+    let every = every.unwrap_or(1);
+    let all = all.filter(|mutant| of_line.is_none_or(|line| line == mutant.line));
+    all.skip(every / 2).step_by(every).collect()
 }
 
 /// The comparisons that go through a kernel: of its block, and of the units that are made of it.
