@@ -140,8 +140,11 @@ fuzz() {
 step "format" cargo fmt --all --check
 step "lints" cargo clippy --workspace --features gpu --all-targets --quiet -- -D warnings
 # Optimised: the comparisons with the definitions run millions of cases. Integer overflow stays
-# checked, in all that follows: one profile builds the dependencies once.
+# checked, in all that follows: one profile builds the dependencies once. Most of the time goes into
+# building thirty test programs: they have no lines for debuggers, and their parts are optimised by
+# themselves.
 export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true
+export CARGO_PROFILE_RELEASE_DEBUG=none CARGO_PROFILE_RELEASE_LTO=off
 # --nocapture, or the reasons of skipped tests would not be seen.
 # The lock-step test has its own step: its feature would have all crates built twice.
 step "tests" cargo test --workspace --features gpu --release --no-fail-fast --lib --bins --tests -- --nocapture \

@@ -10,9 +10,9 @@
 const TWO_THIRDS = 0xaaaau;
 const THIRD = 0x5555u;
 
-// 1 / n in U1.16, rounded to nearest; no segments have no length.
+// 1 / n in U1.16, rounded to nearest.
 fn reciprocal(n: u32) -> u32 {
-    return select((ONE + n / 2u) / max(n, 1u), 0u, n == 0u);
+    return (ONE + n / 2u) / max(n, 1u);
 }
 
 // Parameter number k of a factor: between the partitions into floor and ceil segments, of which the
@@ -27,11 +27,10 @@ fn parameter(at: u32, factor: u32, k: u32) -> u32 {
     let p = select(k, last - k, mirrored);
     let points = (last + odd) / 2u; // of a half
     let t = half_of(patterns[at + VALUE + factor], odd) - ((points - 1u) << 16u);
-    // A single point has nothing coarser.
-    let coarser = select(2u * (points - 1u) - odd, 0u, points == 1u);
-    let of_floor = reciprocal(coarser) * (ONE - t);
+    // Of a single point in a half only the first is asked for, to which nothing of this matters.
+    let of_floor = reciprocal(2u * (points - 1u) - odd) * (ONE - t);
     let step = of_floor + reciprocal(last) * t; // U1.32, 2^32 for a single segment
-    let before = points - 1u - select(odd, 0u, points == 1u);
+    let before = points - 1u - odd;
     let row = 1u << firstLeadingBit(max(before, 1u));
     let split = select(2u * (before - row) + 1u, 0u, before == 0u);
     let near = (p * step - select(0u, of_floor, p > split) + HALF) >> 16u;
@@ -59,7 +58,7 @@ fn along_tri(side: u32, t: u32, off: u32, back: u32) -> vec2<u32> {
 fn edge_point(at: u32, number: u32) -> vec2<u32> {
     var side = 0u;
     var k = number;
-    while (side < 3u && k >= segments(at, side)) {
+    while (k >= segments(at, side)) {
         k -= segments(at, side);
         side += 1u;
     }
@@ -89,14 +88,7 @@ fn ring_of_point(at: u32, number: u32) -> u32 {
 fn quad_point(at: u32, number: u32) -> vec2<u32> {
     let ring = ring_of_point(at, number);
     var k = number - first_of(at, ring);
-    let v = inner(at, 0u, ring);
-    let u = inner(at, 1u, ring);
-    if (v == 0u) {
-        return vec2(parameter(at, 4u, ring + k), HALF);
-    }
-    if (u == 0u) {
-        return vec2(HALF, ONE - parameter(at, 5u, ring + k));
-    }
+    // A ring that is a line is one of which two sides have no points; a point is its last corner.
     var side = 0u;
     while (side < 3u && k >= inner(at, side, ring)) {
         k -= inner(at, side, ring);

@@ -161,10 +161,6 @@ fn norm(points: vec4<u32>, weights: vec4<i32>) -> I64 {
 fn measure(flat: bool) {
     let segments = select(3u, 2u, flat);
     let of_lines = LINES * segments;
-    twist = NONE64;
-    for (var k = 0u; k < LINES; k += 1u) {
-        measures[k] = NONE64;
-    }
     for (var k = 0u; k < of_lines + select(0u, 9u, flat); k += 1u) {
         var points: vec4<u32>;
         var weights = vec4<i32>(-1, 1, 0, 0);
@@ -188,7 +184,7 @@ fn measure(flat: bool) {
             weights = vec4<i32>(1, -1, -1, 1);
         }
         let length = norm(points, weights);
-        let slack = I64(select(0u, SLACK, flat), 0u);
+        let slack = I64(SLACK, 0u);
         if (!of_line) {
             twist = max64(twist, add64(length, slack));
         } else if (flat) {
