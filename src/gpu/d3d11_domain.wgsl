@@ -30,39 +30,44 @@ const ORIENTATIONS = 8u;
 
 // ---- one arithmetic or the other
 
+// A single where other numbers stand.
+fn single_in(bits: u32) -> I64 {
+    return I64(bits, 0u);
+}
+
 fn product(a: I64, b: I64) -> I64 {
     if (settings.g == FIXED) {
         return round64(mul64(a, b), settings.i, settings.rounding); // at most 2^60 before
     }
-    return I64(multiply(a.x, b.x), 0u);
+    return single_in(multiply(a.x, b.x));
 }
 
 fn scaled(a: I64, p: I64) -> I64 {
     if (settings.g == FIXED) {
         return narrow(round128(mul_signed(a, p), settings.i, settings.rounding));
     }
-    return I64(multiply(a.x, p.x), 0u);
+    return single_in(multiply(a.x, p.x));
 }
 
 fn thrice(a: I64) -> I64 {
     if (settings.g == FIXED) {
         return add64(a, shl64(a, 1u));
     }
-    return I64(multiply(a.x, THREE_SINGLE), 0u);
+    return single_in(multiply(a.x, THREE_SINGLE));
 }
 
 fn sum(p: I64, q: I64) -> I64 {
     if (settings.g == FIXED) {
         return add64(p, q);
     }
-    return I64(add(p.x, q.x), 0u);
+    return single_in(add(p.x, q.x));
 }
 
 fn negative(p: I64) -> I64 {
     if (settings.g == FIXED) {
         return neg64(p);
     }
-    return I64(p.x ^ SIGN, 0u);
+    return single_in(p.x ^ SIGN);
 }
 
 // A parameter of U1.16, exactly.
@@ -70,7 +75,7 @@ fn parameter(t: u32) -> I64 {
     if (settings.g == FIXED) {
         return shl64(I64(t, 0u), settings.i - 16u);
     }
-    return I64(single_of(I64(t, 0u), -16), 0u);
+    return single_in(single_of(I64(t, 0u), -16));
 }
 
 // ---- forms
@@ -174,7 +179,7 @@ fn control_point(item: u32, orientation: u32, k: u32, axis: u32) -> I64 {
         let at = item * PATCH + 2u * place;
         return I64(control[at], control[at + 1u]);
     }
-    return I64(control[item * 64u + place], 0u);
+    return single_in(control[item * 64u + place]);
 }
 
 // An invocation a patch, orientation and coordinate.
@@ -250,7 +255,7 @@ fn coordinate(net: u32, axis: u32, u: array<I64, 4>, v: array<I64, 4>) -> I64 {
         return value;
     }
     // Of both zeros one.
-    return I64(add(value.x, 0u), 0u);
+    return single_in(add(value.x, 0u));
 }
 
 struct Fitted {

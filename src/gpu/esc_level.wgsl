@@ -14,10 +14,9 @@
 const KEPT = 2u;
 const PROJECTION = 5u;
 const ONE = 65536u;
-const LEVEL_MOST = 8388608u; // 128 segments
 
 const BY_CRITERION = 0u;
-const BY_FIXED = 1u;
+// 1: by a fixed level.
 const BY_DISTANCE = 2u;
 const BY_SCREEN_SIZE = 3u;
 const BY_OBJECT = 4u;
@@ -145,9 +144,9 @@ fn curve_level(bend: I64, d: u32) -> I64 {
 
 fn clamped_level(level: I64, least: u32, most: u32) -> u32 {
     if (level.y != 0u || level.x > most) {
-        return clamp(most, ONE, LEVEL_MOST);
+        return most;
     }
-    return clamp(max(level.x, least), ONE, LEVEL_MOST);
+    return max(level.x, least);
 }
 
 // level, raised until level^2 is bound 2^29 / (d across^2).
@@ -226,7 +225,7 @@ fn by_criterion(item: u32) -> Chosen {
     let at = item * PATCH;
     let kind = patches[at + CRITERION];
     let number = patches[at + NUMBER];
-    let top = clamp(3u * (settings.l + 1u) * ONE, ONE, LEVEL_MOST);
+    let top = 3u * (settings.l + 1u) * ONE;
     let least = min(patches[at + LEAST], top);
     let most = min(patches[at + GREATEST], top);
     var chosen: Chosen;

@@ -23,6 +23,8 @@ fn levels_of_resolution_are_chosen_alike() {
             for patch in &mut batch.patches {
                 let nearer = random.of([0, 0, 0, 6, 12]);
                 patch.points = patch.points.map(|[x, y, z, w]| [x, y, z, w >> nearer]);
+                // What is inside may be nearer than all of the boundary.
+                patch.points[random.of([5, 6, 9, 10])][3] >>= random.integer(0, 3);
             }
             for state in &mut batch.states {
                 let pixels = (random.octaves(0.01, 200.0) * 65536.0) as u32;
@@ -42,13 +44,18 @@ fn levels_of_resolution_are_chosen_alike() {
     support::settle(&ledger, Quantity::KernelResolution);
 }
 
-/// Makes a patch of a few ulps, whose projections are halves of 2^-16 pixels: 1280 pixels are
+/// Makes two patches of a few ulps, whose projections are halves of 2^-16 pixels: 1280 pixels are
 /// 5 2^8, so x is multiplied by 5 2^23 and divided by w.
 fn halves(random: &mut Random, batch: &mut Batch) {
     batch.view.viewport = [1280, 1280];
     batch.states[0].criterion = Criterion::EdgeLength { pixels: 1 };
     let mut coordinate = || i64::from(random.integer(0, 8)) - 4;
-    batch.patches[0].points = [(); 16].map(|()| [coordinate(), coordinate(), 0, 1 << 24]);
+    for patch in &mut batch.patches[..2] {
+        patch.points = [(); 16].map(|()| [coordinate(), coordinate(), 0, 1 << 24]);
+    }
+    // Bends of few ulps by tolerances of few: what is added for roundings decides.
+    let pixels = random.integer(1, 8);
+    batch.states[1].criterion = Criterion::Flatness { pixels };
 }
 
 fn levels(ledger: &mut Ledger, device: &Device, batch: &Batch) {
