@@ -128,6 +128,11 @@ fn patch(random: &mut Random, max: i64) -> Patch {
     if random.integer(0, 9) == 0 {
         patch.points = patch.points.map(|[_, y, z, w]| [(w + 1).min(max), y, z, w]);
     }
+    if random.integer(0, 9) == 0 {
+        // At the end of the range, beyond which roundings go.
+        let mut end = || max - i64::from(random.integer(0, 3));
+        patch.points = patch.points.map(|p| p.map(|_| end()));
+    }
     patch
 }
 
