@@ -238,9 +238,6 @@ fn distant_on_screen(a: array<I64, 4>, b: array<I64, 4>) -> bool {
 
 // c / w in 1/256 ulp; clears `fits` where that is 2^61 or more.
 fn quotient(c: I64, w: I64, fits: ptr<function, bool>) -> I64 {
-    if (all(w == shl64(I64(1u, 0u), settings.j))) {
-        return shl64(c, 8u);
-    }
     let numerator = shl128(wide(c), settings.j + 8u);
     let result = divide_rounded(numerator, wide(w), NEAREST_EVEN);
     *fits = *fits && bits128(abs128(result)) <= 61u;

@@ -100,13 +100,16 @@ fn draw(random: &mut Random, width: u32, count: usize) -> Batch {
     let objects = (0..count)
         .map(|_| {
             let kind = random.of([Kind::Wild, Kind::Sheet, Kind::Sheet]);
-            let points = random::patch(random, kind, object_format.max()).points;
+            let mut points = random::patch(random, kind, object_format.max()).points;
+            if random.integer(0, 9) == 0 {
+                points = at_the_end(random, object_format.max());
+            }
             let affine = random.integer(0, 2) > 0;
             points.map(|[x, y, z, w]| [x, y, z, if affine { one } else { w }])
         })
         .collect();
     let given = (config.esc.scope == LevelScope::Object)
-        .then(|| (0..count).map(|_| random.integer(0, config.esc.level_max)).collect());
+        .then(|| (0..count).map(|_| random.integer(0, config.esc.level_max + 1)).collect());
     Batch {
         states: (0..count).map(|_| state(random)).collect(),
         components: (0..count).map(|_| random.integer(0, 9)).collect(),
@@ -129,11 +132,14 @@ fn patch(random: &mut Random, max: i64) -> Patch {
         patch.points = patch.points.map(|[_, y, z, w]| [(w + 1).min(max), y, z, w]);
     }
     if random.integer(0, 9) == 0 {
-        // At the end of the range, beyond which roundings go.
-        let mut end = || max - i64::from(random.integer(0, 3));
-        patch.points = patch.points.map(|p| p.map(|_| end()));
+        patch.points = at_the_end(random, max);
     }
     patch
+}
+
+/// At the end of the range, beyond which roundings go.
+fn at_the_end(random: &mut Random, max: i64) -> [Point; 16] {
+    [(); 16].map(|()| [(); 4].map(|()| max - i64::from(random.integer(0, 3))))
 }
 
 /// A tessellation state; a level of 1, between 1 and 2, 2, and others.
