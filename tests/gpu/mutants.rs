@@ -4,8 +4,8 @@
 //! in it, while one turn less shows that its bound matters. Both are reported by themselves.
 //!
 //! By default one in 300; `TESSIM_MUTANTS=1` takes them all, `TESSIM_MUTANTS=7` every seventh,
-//! `TESSIM_MUTANTS=stem` those of one file, `TESSIM_MUTANTS=stem:9` of its line. Survivors are printed with their lines;
-//! docs/kernels.md explains those that are known.
+//! `TESSIM_MUTANTS=stem` those of one file, `TESSIM_MUTANTS=stem:9` of its line. Survivors are
+//! printed with their lines; docs/kernels.md explains those that are known.
 
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
