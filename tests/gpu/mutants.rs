@@ -154,6 +154,7 @@ fn fails(folder: &std::path::Path, filters: &[&str]) -> bool {
         }
         let hangs = !reader.is_finished();
         if hangs {
+            println!("no end after {PATIENCE:?}: {filters:?}");
             let _ = child.kill();
         }
         hangs | reader.join().expect("the reader does not panic")
@@ -163,14 +164,20 @@ fn fails(folder: &std::path::Path, filters: &[&str]) -> bool {
     failed || !(status.success() || status.code().is_none())
 }
 
+/// A folder of all kernels, one of them with another text.
+fn folder(file: &str, text: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in Sources::files() {
+        let shipped = Sources::shipped(name).expect("it is listed");
+        let text = if name == file { text } else { shipped };
+        std::fs::write(folder.path().join(name), text).expect("room for kernels");
+    }
+    folder
+}
+
 /// Whether a constant's being something else is noticed.
 fn caught(mutant: &Mutant, becomes: &str) -> bool {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    for file in Sources::files() {
-        let changed = (file == mutant.file).then(|| mutant.text(becomes));
-        let text = changed.as_deref().or(Sources::shipped(file)).expect("it is listed");
-        std::fs::write(folder.path().join(file), text).expect("room for kernels");
-    }
+    let folder = folder(mutant.file, &mutant.text(becomes));
     own(mutant.file).into_iter().any(|filters| fails(folder.path(), filters))
 }
 
@@ -197,6 +204,8 @@ fn a_changed_constant_is_noticed() {
     }
     let chosen = std::env::var("TESSIM_MUTANTS").ok();
     let mutants = mutants(chosen.as_deref());
+    // Or every change would pass for noticed.
+    assert!(!fails(folder("", "").path(), &[""]), "the kernels fail as they are");
     let (next, results) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
         while let Some(mutant) = mutants.get(next.fetch_add(1, Ordering::Relaxed)) {
