@@ -90,6 +90,7 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
     let vertices: Vec<DVec3> = mesh.vertices.iter().map(|&v| to_world(v)).collect();
     let facet = |t: &Triangle| Facet::new(t.map(|v| vertices[usize::from(v)]));
     let facets: Vec<Facet> = mesh.triangles.iter().map(facet).collect();
+    let clusters = clusters(&facets);
     let to_clip = place.to_world.inverse();
     let screen = |p: DVec3| {
         let clip = to_clip * p.extend(1.0);
@@ -101,7 +102,7 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
         for j in 0..=place.segments {
             let at = |k: u32| f64::from(k) / f64::from(place.segments);
             let sample = to_world(evaluate::surface(points, at(j), at(i)));
-            let near = nearest(&facets, sample, &mut last);
+            let near = nearest(&facets, &clusters, sample, &mut last);
             let pixels = match (screen(sample), screen(near)) {
                 (Some(a), Some(b)) => a.distance(b),
                 _ => 0.0,
@@ -112,34 +113,68 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
     deviation
 }
 
+/// Facets that follow one another in a mesh, and so lie side by side, under one ball.
+const CLUSTER: usize = 16;
+
+/// A ball round each [`CLUSTER`] of facets.
+fn clusters(facets: &[Facet]) -> Vec<Ball> {
+    let ball = |facets: &[Facet]| {
+        let centres = facets.iter().map(|facet| facet.ball.centre);
+        let centre = centres.sum::<DVec3>() / facets.len() as f64;
+        let reach = |facet: &Facet| facet.ball.centre.distance(centre) + facet.ball.radius;
+        Ball { centre, radius: facets.iter().map(reach).fold(0.0, f64::max) }
+    };
+    facets.chunks(CLUSTER).map(ball).collect()
+}
+
 /// The nearest point of all facets. `last` is the facet that it was on before: a good first guess.
-fn nearest(facets: &[Facet], p: DVec3, last: &mut usize) -> DVec3 {
+fn nearest(facets: &[Facet], clusters: &[Ball], p: DVec3, last: &mut usize) -> DVec3 {
     let mut best = facets[*last].nearest(p);
     let mut least = best.distance(p);
-    for (k, facet) in facets.iter().enumerate() {
-        if facet.centre.distance(p) - facet.radius < least {
-            let candidate = facet.nearest(p);
-            if candidate.distance(p) < least {
-                (best, least, *last) = (candidate, candidate.distance(p), k);
+    for (k, (facets, cluster)) in facets.chunks(CLUSTER).zip(clusters).enumerate() {
+        if !cluster.may_be_within(least, p) {
+            continue;
+        }
+        for (i, facet) in facets.iter().enumerate() {
+            if facet.ball.may_be_within(least, p) {
+                let candidate = facet.nearest(p);
+                let distance = candidate.distance(p);
+                if distance < least {
+                    (best, least, *last) = (candidate, distance, CLUSTER * k + i);
+                }
             }
         }
     }
     best
 }
 
+/// All points that are as near to the centre as the radius.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Ball {
+    /// Whether some point of the ball may be nearer to `p` than `distance`.
+    fn may_be_within(&self, distance: f64, p: DVec3) -> bool {
+        let reach = distance + self.radius;
+        self.centre.distance_squared(p) < reach * reach
+    }
+}
+
 /// A triangle, and a ball round it.
 #[derive(Clone, Copy, Debug)]
 struct Facet {
     corners: [DVec3; 3],
-    centre: DVec3,
-    radius: f64,
+    ball: Ball,
 }
 
 impl Facet {
     fn new(corners: [DVec3; 3]) -> Self {
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
         let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
-        Self { corners, centre, radius }
+        Self { corners, ball: Ball { centre, radius } }
     }
 
     /// Its point that is nearest to `p`: the foot of the perpendicular, if that is inside, else on
@@ -235,6 +270,24 @@ mod tests {
             let mean = deviation.mean() / sagitta;
             assert!((0.63..0.68).contains(&mean), "{n}: {mean}");
             assert!((deviation.largest_pixels / (100.0 * sagitta) - 1.0).abs() < 2e-3);
+        }
+    }
+
+    #[test]
+    fn clusters_find_what_looking_at_every_facet_finds() {
+        let wave = |u: f64, v: f64| [u, v, (9.0 * u).sin() * (7.0 * v).cos(), 1.0];
+        let mesh = grid(9, wave);
+        let corner = |v: u16| DVec4::from(mesh.vertices[usize::from(v)]).truncate();
+        let facets: Vec<Facet> = mesh.triangles.iter().map(|t| Facet::new(t.map(corner))).collect();
+        let clusters = clusters(&facets);
+        assert!(clusters.len() == 11 && facets.len() % CLUSTER != 0);
+        let mut last = 0;
+        for k in 0..500_u32 {
+            let at = |prime: u32| f64::from(k * prime % 101) / 80.0 - 0.1;
+            let p = DVec3::new(at(7), at(31), at(59));
+            let found = nearest(&facets, &clusters, p, &mut last).distance(p);
+            let all = facets.iter().map(|facet| facet.nearest(p).distance(p));
+            assert_eq!(found, all.fold(f64::INFINITY, f64::min), "{p}");
         }
     }
 

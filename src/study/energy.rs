@@ -7,8 +7,11 @@
 //! multiplier, as these do within a fifth. A comparison is a subtraction. What an instruction costs
 //! to fetch and an invocation to start is not in there: that price is 0 unless set.
 
+use crate::config::{Arithmetic, Config};
 use crate::error::{Error, Result};
+use crate::report::{Frame, Report};
 use rtl_model::counter::standard::Ops;
+use rtl_model::counter::{Block, Counter as C, Counters};
 use serde::{Deserialize, Serialize};
 
 /// Prices in picojoules.
@@ -94,6 +97,54 @@ impl Prices {
             + ops.mul as f64 * self.single_mul
             + ops.compare as f64 * self.single_compare
     }
+}
+
+/// Operations of all blocks, their energy as they are built, and in singles.
+#[must_use]
+pub fn operations(report: &Report, frame: &Frame, prices: &Prices) -> (Ops, f64, f64) {
+    let (mut sum, mut built, mut singles) = (Ops::default(), 0.0, 0.0);
+    for (stage, work) in report.chain.iter().zip(&frame.work) {
+        let Some(ops) = work.ops else { continue };
+        sum = sum.with(1, ops);
+        let price = if is_of_singles(stage.block, &report.config) {
+            prices.singles(&ops)
+        } else {
+            prices.integers(&ops)
+        };
+        built += price;
+        singles += prices.singles(&ops);
+    }
+    (sum, built, singles)
+}
+
+/// Whether a block computes in singles.
+fn is_of_singles(block: Block, config: &Config) -> bool {
+    match block {
+        Block::Transform | Block::Hull | Block::VertexShader => true,
+        Block::Domain => config.domain.arithmetic == Arithmetic::F32,
+        _ => false,
+    }
+}
+
+/// What shaders read and write: what stands between them is on the chip.
+#[must_use]
+pub fn chip_bytes(totals: &Counters) -> u64 {
+    [
+        C::TransformBytesIn,
+        C::TransformBytesOut,
+        C::HullBytesIn,
+        C::HullBytesOut,
+        C::DomainBytesControlPoints,
+        C::DomainBytesParameters,
+        C::DomainBytesOut,
+        C::SurfaceBytesIn,
+        C::SurfaceBytesOut,
+        C::VertexShaderBytesIn,
+        C::VertexShaderBytesOut,
+    ]
+    .into_iter()
+    .map(|counter| totals.get(counter))
+    .sum()
 }
 
 #[cfg(test)]

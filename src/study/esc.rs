@@ -10,15 +10,13 @@
 //! picture. All runs are of the units themselves, of which nothing is clipped or culled: the
 //! paper's counts are of all patches.
 
-mod distance;
-pub mod energy;
 pub mod error;
-mod plot;
 mod scene;
 mod search;
 pub mod triangles;
 pub mod work;
 
+use super::{distance, plot};
 use crate::config::{BackfaceMethod, Config, Engine, LevelPolicy, LevelScope, Unit};
 use crate::error::{Error, Result};
 use crate::sink::NoMesh;

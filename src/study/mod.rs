@@ -9,10 +9,13 @@ pub mod bandwidth;
 #[cfg(feature = "gpu")]
 pub mod check;
 pub mod compare;
+mod distance;
+pub mod energy;
 pub mod esc;
 mod markdown;
 pub mod motion;
 #[cfg(feature = "gpu")]
 pub mod picture;
+mod plot;
 mod random;
 pub mod walk;

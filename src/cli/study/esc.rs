@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use tessim::config::Config;
 use tessim::config::preset::Preset;
 use tessim::error::Result;
-use tessim::study::esc::energy::Prices;
+use tessim::study::energy::Prices;
 use tessim::study::esc::{Scene, error, triangles, work};
 use tessim::trace::scene::newell::Newell;
 

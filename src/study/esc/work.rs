@@ -12,19 +12,17 @@
 pub mod program;
 mod table;
 
-use super::energy::Prices;
 use super::scene::Scene;
 use super::{all_patches, plot, some, uniform};
-use crate::config::{
-    Arithmetic, Config, Criterion, DomainKind, Engine, Form, Partitioning, Reuse, Unit,
-};
+use crate::config::{Config, Criterion, DomainKind, Engine, Form, Partitioning, Reuse, Unit};
 use crate::error::Result;
 use crate::report::Report;
 use crate::sink::NoMesh;
+use crate::study::energy::{self, Prices};
 use crate::trace::command::Command;
 use crate::unit::simulate;
 use rtl_model::counter::standard::Ops;
-use rtl_model::counter::{Block, Counter as C, Counters};
+use rtl_model::counter::{Block, Counter as C};
 
 pub use table::{CSV_HEADER, csv, svg, text};
 
@@ -243,8 +241,8 @@ fn of_report(
     };
     let before = [C::TransformInvocations, C::HullThreads, C::HullInvocations];
     let invocations = before.into_iter().map(get).sum::<u64>() + evaluating;
-    let chip_bytes = chip_bytes(&totals);
-    let (ops, operations, in_singles) = operations(config, report, prices);
+    let chip_bytes = energy::chip_bytes(&totals);
+    let (ops, operations, in_singles) = energy::operations(report, &report.whole(), prices);
     Row {
         way,
         level,
@@ -267,51 +265,6 @@ fn of_report(
         },
         shader_cycles,
         elapsed,
-    }
-}
-
-/// What shaders read and write: what stands between them is on the chip.
-fn chip_bytes(totals: &Counters) -> u64 {
-    [
-        C::TransformBytesIn,
-        C::TransformBytesOut,
-        C::HullBytesIn,
-        C::HullBytesOut,
-        C::DomainBytesControlPoints,
-        C::DomainBytesParameters,
-        C::DomainBytesOut,
-        C::SurfaceBytesIn,
-        C::SurfaceBytesOut,
-    ]
-    .into_iter()
-    .map(|counter| totals.get(counter))
-    .sum()
-}
-
-/// Operations of all blocks, their energy as they are built, and in singles.
-fn operations(config: &Config, report: &Report, prices: &Prices) -> (Ops, f64, f64) {
-    let whole = report.whole();
-    let (mut sum, mut built, mut singles) = (Ops::default(), 0.0, 0.0);
-    for (stage, work) in report.chain.iter().zip(&whole.work) {
-        let Some(ops) = work.ops else { continue };
-        sum = sum.with(1, ops);
-        let price = if is_of_singles(stage.block, config) {
-            prices.singles(&ops)
-        } else {
-            prices.integers(&ops)
-        };
-        built += price;
-        singles += prices.singles(&ops);
-    }
-    (sum, built, singles)
-}
-
-/// Whether a block computes in singles.
-fn is_of_singles(block: Block, config: &Config) -> bool {
-    match block {
-        Block::Transform | Block::Hull | Block::VertexShader => true,
-        Block::Domain => config.domain.arithmetic == Arithmetic::F32,
-        _ => false,
     }
 }
 
