@@ -24,15 +24,23 @@ pub enum Measure {
     Bits,
 }
 
-impl fmt::Display for Measure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Measure {
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
             Self::Bytes => "bytes",
             Self::Cycles => "cycles",
             Self::Count => "count",
             Self::Entries => "entries",
             Self::Bits => "bits",
-        })
+        }
+    }
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

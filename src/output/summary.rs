@@ -52,8 +52,8 @@ pub fn text(report: &Report, provenance: &Provenance) -> String {
 
 /// The text of the `summary.json` of runs of one trace under the same layers, one a unit.
 #[must_use]
-pub fn comparison(reports: &[Report], provenance: &Provenance) -> String {
-    let unit = |report: &Report| {
+pub fn comparison(reports: &[&Report], provenance: &Provenance) -> String {
+    let unit = |report: &&Report| {
         let whole = report.whole();
         json!({
             "unit": report.config.unit.name(),

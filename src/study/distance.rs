@@ -19,6 +19,17 @@ pub(super) struct Place {
     pub(super) viewport: [u32; 2],
     /// Samples along each direction are one more.
     pub(super) segments: u32,
+    /// Which samples count.
+    pub(super) samples: Samples,
+}
+
+/// Which samples of a surface count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Samples {
+    /// All of them; behind the eye none is a pixel off.
+    All,
+    /// Those that lie in the viewport.
+    InView,
 }
 
 /// A patch's mesh: vertices in clip space.
@@ -77,7 +88,7 @@ impl Deviation {
     }
 }
 
-/// Measures a patch, whose control points are in clip space. Pixels behind the eye count nothing.
+/// Measures a patch, whose control points are in clip space.
 ///
 /// # Panics
 /// When the mesh has no triangles.
@@ -101,9 +112,14 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
     for i in 0..=place.segments {
         for j in 0..=place.segments {
             let at = |k: u32| f64::from(k) / f64::from(place.segments);
-            let sample = to_world(evaluate::surface(points, at(j), at(i)));
+            let clip = evaluate::surface(points, at(j), at(i));
+            let seen = emit::screen(clip, place.viewport).map(DVec2::from);
+            if place.samples == Samples::InView && !seen.is_some_and(|at| inside(at, place)) {
+                continue;
+            }
+            let sample = to_world(clip);
             let near = nearest(&facets, &clusters, sample, &mut last);
-            let pixels = match (screen(sample), screen(near)) {
+            let pixels = match (seen, screen(near)) {
                 (Some(a), Some(b)) => a.distance(b),
                 _ => 0.0,
             };
@@ -111,6 +127,11 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
         }
     }
     deviation
+}
+
+fn inside(at: DVec2, place: &Place) -> bool {
+    let [width, height] = place.viewport.map(f64::from);
+    (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y)
 }
 
 /// Facets that follow one another in a mesh, and so lie side by side, under one ball.
@@ -131,21 +152,34 @@ fn clusters(facets: &[Facet]) -> Vec<Ball> {
 fn nearest(facets: &[Facet], clusters: &[Ball], p: DVec3, last: &mut usize) -> DVec3 {
     let mut best = facets[*last].nearest(p);
     let mut least = best.distance(p);
-    for (k, (facets, cluster)) in facets.chunks(CLUSTER).zip(clusters).enumerate() {
-        if !cluster.may_be_within(least, p) {
-            continue;
+    let mut offer = |k: usize, least: &mut f64| {
+        let candidate = facets[k].nearest(p);
+        let distance = candidate.distance(p);
+        if distance < *least {
+            (best, *least, *last) = (candidate, distance, k);
         }
-        for (i, facet) in facets.iter().enumerate() {
-            if facet.ball.may_be_within(least, p) {
-                let candidate = facet.nearest(p);
-                let distance = candidate.distance(p);
-                if distance < least {
-                    (best, least, *last) = (candidate, distance, CLUSTER * k + i);
+    };
+    // A better one: the closer the guess, the fewer facets may hold something nearer.
+    let balls = clusters.iter().map(|cluster| cluster.centre.distance_squared(p));
+    let first = CLUSTER * closest(balls);
+    let members = &facets[first..facets.len().min(first + CLUSTER)];
+    offer(first + closest(members.iter().map(|f| f.ball.centre.distance_squared(p))), &mut least);
+    for (k, (members, cluster)) in facets.chunks(CLUSTER).zip(clusters).enumerate() {
+        if cluster.may_be_within(least, p) {
+            for (i, facet) in members.iter().enumerate() {
+                if facet.ball.may_be_within(least, p) {
+                    offer(CLUSTER * k + i, &mut least);
                 }
             }
         }
     }
     best
+}
+
+/// Which of the distances is the least, the first of equals.
+fn closest(distances: impl Iterator<Item = f64>) -> usize {
+    let least = |best: (usize, f64), next: (usize, f64)| if next.1 < best.1 { next } else { best };
+    distances.enumerate().reduce(least).map_or(0, |(k, _)| k)
 }
 
 /// All points that are as near to the centre as the radius.
@@ -168,24 +202,34 @@ impl Ball {
 struct Facet {
     corners: [DVec3; 3],
     ball: Ball,
+    /// Products of its sides from corner 0, and one over the square of twice its area: 0 without
+    /// area.
+    gram: [f64; 3],
+    inverse: f64,
 }
 
 impl Facet {
     fn new(corners: [DVec3; 3]) -> Self {
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let [a, b, c] = corners;
+        let centre = (a + b + c) / 3.0;
         let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
-        Self { corners, ball: Ball { centre, radius } }
+        let [along, up] = [b - a, c - a];
+        let gram = [along.dot(along), along.dot(up), up.dot(up)];
+        let square = along.cross(up).length_squared();
+        let inverse = if square > 0.0 { square.recip() } else { 0.0 };
+        Self { corners, ball: Ball { centre, radius }, gram, inverse }
     }
 
     /// Its point that is nearest to `p`: the foot of the perpendicular, if that is inside, else on
     /// one of the sides. A triangle without area has sides only.
     fn nearest(&self, p: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
-        let normal = (b - a).cross(c - a);
-        let area = normal.length_squared();
-        let side = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(normal);
-        if area > 0.0 && [side(a, b), side(b, c), side(c, a)].iter().all(|s| *s >= 0.0) {
-            return p - normal * ((p - a).dot(normal) / area);
+        let (along, up) = (b - a, c - a);
+        let [d, e] = [(p - a).dot(along), (p - a).dot(up)];
+        let [aa, ab, bb] = self.gram;
+        let (s, t) = ((bb * d - ab * e) * self.inverse, (aa * e - ab * d) * self.inverse);
+        if self.inverse > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
+            return a + along * s + up * t;
         }
         let sides = [on_side(a, b, p), on_side(b, c, p), on_side(c, a, p)];
         let nearer = |q: DVec3, r: DVec3| if r.distance(p) < q.distance(p) { r } else { q };
@@ -206,7 +250,7 @@ mod tests {
 
     /// World and clip space the same; x and y from -1 to 1 over 200 pixels.
     fn place(segments: u32) -> Place {
-        Place { to_world: DMat4::IDENTITY, viewport: [200, 200], segments }
+        Place { to_world: DMat4::IDENTITY, viewport: [200, 200], segments, samples: Samples::All }
     }
 
     /// A grid of n by n cells over a surface, each cut in two.
@@ -274,13 +318,25 @@ mod tests {
     }
 
     #[test]
+    fn samples_out_of_view_do_not_count_where_only_those_in_view_do() {
+        // x from -2 to 2: half of it is seen, both of its ends included.
+        let wide = |u: f64, v: f64| [4.0 * u - 2.0, v - 0.5, 0.0, 1.0];
+        let lower = grid(2, |u, v| [4.0 * u - 2.0, v - 0.75, 0.0, 1.0]);
+        let (points, all) = (points(wide), place(8));
+        let seen = Place { samples: Samples::InView, ..all };
+        let [all, seen] = [all, seen].map(|place| patch(&points, &lower, &place));
+        assert_eq!((all.samples, seen.samples), (81, 4 * 9)); // -1, -1/2, 0 and 1/2
+        assert!((seen.largest_pixels - 25.0).abs() < 1e-9, "{seen:?}");
+    }
+
+    #[test]
     fn clusters_find_what_looking_at_every_facet_finds() {
         let wave = |u: f64, v: f64| [u, v, (9.0 * u).sin() * (7.0 * v).cos(), 1.0];
         let mesh = grid(9, wave);
         let corner = |v: u16| DVec4::from(mesh.vertices[usize::from(v)]).truncate();
         let facets: Vec<Facet> = mesh.triangles.iter().map(|t| Facet::new(t.map(corner))).collect();
         let clusters = clusters(&facets);
-        assert!(clusters.len() == 11 && facets.len() % CLUSTER != 0);
+        assert!(clusters.len() == 11 && !facets.len().is_multiple_of(CLUSTER));
         let mut last = 0;
         for k in 0..500_u32 {
             let at = |prime: u32| f64::from(k * prime % 101) / 80.0 - 0.1;

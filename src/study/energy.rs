@@ -5,7 +5,8 @@
 //! multiplications 0.2 and 3.1 pJ; in singles 0.9 and 3.7 pJ; 64 bits out of an 8 KB memory 10 pJ,
 //! out of DRAM 1.3 to 2.6 nJ. Integer prices grow with the width of an adder and the area of a
 //! multiplier, as these do within a fifth. A comparison is a subtraction. What an instruction costs
-//! to fetch and an invocation to start is not in there: that price is 0 unless set.
+//! to fetch and an invocation to start is not in there: that price is 0 unless set. Nor is a byte
+//! over a link: 5 pJ a bit are assumed.
 
 use crate::config::{Arithmetic, Config};
 use crate::error::{Error, Result};
@@ -34,6 +35,8 @@ pub struct Prices {
     pub chip_byte: f64,
     /// A byte to or from device memory.
     pub memory_byte: f64,
+    /// A byte over the link.
+    pub link_byte: f64,
     /// An invocation of a shader, apart from its operations and bytes.
     pub invocation: f64,
 }
@@ -49,6 +52,7 @@ impl Default for Prices {
             single_compare: 0.9,
             chip_byte: 10.0 / 8.0,
             memory_byte: (1300.0 + 2600.0) / 2.0 / 8.0,
+            link_byte: 40.0,
             invocation: 0.0,
         }
     }
@@ -68,7 +72,7 @@ impl Prices {
         Err(wrong("expected prices in picojoules, finite and not negative".into()))
     }
 
-    fn all(&self) -> [f64; 9] {
+    fn all(&self) -> [f64; 10] {
         [
             self.integer_add_bit,
             self.integer_mul_bit2,
@@ -78,6 +82,7 @@ impl Prices {
             self.single_compare,
             self.chip_byte,
             self.memory_byte,
+            self.link_byte,
             self.invocation,
         ]
     }

@@ -18,4 +18,5 @@ pub mod motion;
 pub mod picture;
 mod plot;
 mod random;
+pub mod raster;
 pub mod walk;

@@ -9,7 +9,7 @@
 
 mod table;
 
-use super::distance::{self, Mesh, Place};
+use super::distance::{self, Mesh, Place, Samples};
 use super::scene::{Scene, patches};
 use super::triangles::Test;
 use super::{all_patches, count, plot, search, some, uniform};
@@ -211,8 +211,12 @@ impl Truth {
     fn against(&self, meshes: &Meshes, segments: u32) -> Deviation {
         assert_eq!(meshes.patches.len(), self.0.len(), "nothing is culled");
         let view = meshes.frame.expect("patches belong to a frame").view;
-        let place =
-            |to_world: &DMat4| Place { to_world: *to_world, viewport: view.viewport, segments };
+        let place = |to_world: &DMat4| Place {
+            to_world: *to_world,
+            viewport: view.viewport,
+            segments,
+            samples: Samples::All,
+        };
         let pairs = self.0.par_iter().zip(&meshes.patches);
         let each =
             pairs.map(|(points, (mesh, to_world))| distance::patch(points, mesh, &place(to_world)));
