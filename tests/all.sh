@@ -104,7 +104,7 @@ third_witness() {
     fi
     work="$(mktemp -d)"
     npm install --silent --no-audit --no-fund --prefix "$work" playwright-core@1.65.1 &&
-        TESSIM_RECORD="$work" cargo test --workspace --features gpu --release --test gpu records \
+        TESSIM_RECORD="$work" cargo test --workspace --features gpu,parquet --release --test gpu records \
             -- --nocapture &&
         NODE_PATH="$work" node tests/browser/witness.mjs "$work"
     local outcome=$?
@@ -115,7 +115,7 @@ third_witness() {
 lockstep() {
     command -v g++ >/dev/null || { echo "SKIPPED lock step: no g++"; return; }
     # Of the workspace, for the same reason.
-    local what=(--workspace --features gpu,rtl_model/verilator --test lockstep)
+    local what=(--workspace --features gpu,parquet,rtl_model/verilator --test lockstep)
     cargo clippy "${what[@]}" --quiet -- -D warnings &&
         cargo test "${what[@]}" --release -- --nocapture
 }
@@ -138,7 +138,7 @@ fuzz() {
 }
 
 step "format" cargo fmt --all --check
-step "lints" cargo clippy --workspace --features gpu --all-targets --quiet -- -D warnings
+step "lints" cargo clippy --workspace --features gpu,parquet --all-targets --quiet -- -D warnings
 # Optimised: the comparisons with the definitions run millions of cases. Integer overflow stays
 # checked, in all that follows: one profile builds the dependencies once. Most of the time goes into
 # building thirty test programs: they have no lines for debuggers, and their parts are optimised by
@@ -147,16 +147,16 @@ export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true CARGO_PROFILE_RELEASE_DEBUG_AS
 export CARGO_PROFILE_RELEASE_DEBUG=none CARGO_PROFILE_RELEASE_LTO=off
 # --nocapture, or the reasons of skipped tests would not be seen.
 # The lock-step test has its own step: its feature would have all crates built twice.
-step "tests" cargo test --workspace --features gpu --release --no-fail-fast --lib --bins --tests -- --nocapture \
+step "tests" cargo test --workspace --features gpu,parquet --release --no-fail-fast --lib --bins --tests -- --nocapture \
     --skip the_hardware_description_keeps_step
 step "lock step with the SystemVerilog" lockstep
 step "synthesis" synthesis
-step "documentation tests" cargo test --workspace --features gpu --release --doc
-step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --features gpu --no-deps --quiet
+step "documentation tests" cargo test --workspace --features gpu,parquet --release --doc
+step "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --workspace --features gpu,parquet --no-deps --quiet
 step "a run" smoke
-step "benches build" cargo bench --workspace --features gpu --no-run
+step "benches build" cargo bench --workspace --features gpu,parquet --no-run
 if [ "$mutants" = yes ]; then
-    step "mutants" env TESSIM_MUTANTS=1 cargo test --workspace --features gpu --release --test gpu \
+    step "mutants" env TESSIM_MUTANTS=1 cargo test --workspace --features gpu,parquet --release --test gpu \
         mutants -- --nocapture
 fi
 if [ "$browser" = yes ]; then

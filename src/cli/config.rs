@@ -2,11 +2,11 @@
 
 use super::print;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use std::path::{Path, PathBuf};
-use tessim::config::layers::Layers;
+use std::path::PathBuf;
+use tessim::config::layers::{Layers, text_of};
 use tessim::config::preset::Preset;
 use tessim::config::{Config, Unit};
-use tessim::error::{Error, Place, Result};
+use tessim::error::Result;
 
 /// Flags that make a configuration; each layer lies over the one before.
 #[derive(Debug, clap::Args)]
@@ -63,21 +63,11 @@ impl Laid {
     pub(crate) fn layers_over(&self, preset: Preset) -> Result<Layers> {
         let mut layers = Layers::new(self.preset.unwrap_or(preset));
         if let Some(path) = &self.config {
-            layers.file(&path.display().to_string(), &text(path)?)?;
+            layers.file(&path.display().to_string(), &text_of(path)?)?;
         }
         layers.set(&self.settings)?;
         Ok(layers)
     }
-}
-
-/// The text of a file.
-pub(crate) fn text(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(|error| Error::system(path, error))?;
-    String::from_utf8(bytes).map_err(|error| Error::Input {
-        file: path.display().to_string(),
-        place: Place::Byte(error.utf8_error().valid_up_to() as u64),
-        message: "expected UTF-8".to_owned(),
-    })
 }
 
 /// Print the effective configuration as commented TOML; `--set` takes its paths

@@ -20,6 +20,7 @@ mod render;
 mod run;
 mod scene;
 mod study;
+mod sweep;
 mod table;
 
 use clap::{Parser, Subcommand};
@@ -55,6 +56,7 @@ enum Command {
     Import(import::Args),
     Pattern(pattern::Args),
     Study(study::Args),
+    Sweep(sweep::Args),
     #[cfg(feature = "gpu")]
     Render(render::Args),
 }
@@ -94,6 +96,7 @@ impl Cli {
             Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
             Command::Study(args) => study::run(args, self.quiet),
+            Command::Sweep(args) => sweep::run(args, self.quiet),
             #[cfg(feature = "gpu")]
             Command::Render(args) => render::run(args),
         }

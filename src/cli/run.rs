@@ -8,15 +8,16 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::iter;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use tessim::config::{Config, Engine};
 use tessim::error::{Error, Result};
 use tessim::output::folder::ResultFolder;
 use tessim::output::mesh::{MeshFile, MeshForm};
-use tessim::output::summary::{DataFile, Provenance};
-use tessim::output::{counters, occupancy, summary, table};
+use tessim::output::summary::Provenance;
+use tessim::output::{result, table};
 use tessim::report::Report;
 use tessim::sink::{NoMesh, Sink};
+pub(super) use tessim::study::provenance::provenance;
 use tessim::trace::command::{Command, Header};
 use tessim::trace::open::Trace;
 use tessim::unit::simulate;
@@ -92,7 +93,9 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let results = args.simulate(reader, &config, &pool, folder.as_ref(), quiet)?;
     let Results { report, provenance } = results;
     if let Some(folder) = folder {
-        write(&folder, &report, &summary::text(&report, &provenance))?;
+        for (name, bytes) in result::files(&report, &provenance) {
+            folder.write(name, &bytes)?;
+        }
         folder.commit()?;
     }
     if quiet { Ok(()) } else { print::print(&table::text(&report, &provenance.title)) }
@@ -160,29 +163,4 @@ pub(super) fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool> {
     let threads = threads.map_or(0, NonZeroUsize::get);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| Error::system("threads", std::io::Error::other(error)))
-}
-
-pub(super) fn provenance(header: Header, reader: &Trace) -> Result<Provenance> {
-    let Header { title, source, licence } = header;
-    let files = reader
-        .data_files()
-        .into_iter()
-        .map(|file| Ok(DataFile { name: file.name.clone(), sha256: file.sha256()? }));
-    let files = files.collect::<Result<_>>()?;
-    Ok(Provenance { title, source, licence, sha256: reader.hash(), files })
-}
-
-fn write(folder: &ResultFolder, report: &Report, summary: &str) -> Result<()> {
-    folder.write("config.toml", report.config.to_commented_toml().as_bytes())?;
-    let mut csv = Vec::new();
-    let written = counters::write(report, &mut csv);
-    written.map_err(|error| Error::system(Path::new("counters.csv"), error))?;
-    folder.write("counters.csv", &csv)?;
-    if !report.occupancy.is_empty() {
-        let mut csv = Vec::new();
-        let written = occupancy::write(report, &mut csv);
-        written.map_err(|error| Error::system(Path::new("occupancy.csv"), error))?;
-        folder.write("occupancy.csv", &csv)?;
-    }
-    folder.write("summary.json", summary.as_bytes())
 }

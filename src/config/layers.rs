@@ -9,6 +9,7 @@ use super::{Config, Unit, keys, link};
 use crate::error::{Error, Place, Result};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
@@ -18,6 +19,17 @@ pub struct Layers {
     config: Config,
     /// Where each key that is not the preset's was last set.
     origins: BTreeMap<&'static str, Origin>,
+}
+
+/// A key's value in a file that is no configuration itself, such as a study, and where it stands.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The key.
+    pub key: &'static keys::Key,
+    /// Its value, of whatever kind.
+    pub value: Value,
+    /// Where it stands.
+    pub place: Place,
 }
 
 #[derive(Clone, Debug)]
@@ -88,6 +100,17 @@ impl Layers {
             layer.push((key, value, origin));
         }
         self.lay(layer)
+    }
+
+    /// Lays values that stand in `file` over what there is.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with line and column: a value of the wrong kind.
+    pub fn values(&mut self, file: &str, values: &[Placed]) -> Result<()> {
+        let placed = values.iter().cloned().map(|Placed { key, value, place }| {
+            (key, value, Origin::File { file: file.to_owned(), place })
+        });
+        self.lay(placed.collect())
     }
 
     /// The effective configuration.
@@ -168,6 +191,19 @@ impl Layers {
     }
 }
 
+/// The text of a file of settings.
+///
+/// # Errors
+/// A file that cannot be read, or that is no UTF-8.
+pub fn text_of(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| Error::system(path, error))?;
+    String::from_utf8(bytes).map_err(|error| Error::Input {
+        file: path.display().to_string(),
+        place: Place::Byte(error.utf8_error().valid_up_to() as u64),
+        message: "expected UTF-8".to_owned(),
+    })
+}
+
 /// A value in a TOML file: its dotted path, and where key and value stand.
 struct Leaf {
     path: String,
@@ -192,7 +228,11 @@ fn is_section(path: &str) -> bool {
     keys::KEYS.iter().any(|key| key.path.strip_prefix(path).is_some_and(|p| p.starts_with('.')))
 }
 
-fn known(path: &str) -> Result<&'static keys::Key, String> {
+/// The key at `path`.
+///
+/// # Errors
+/// For a path that no key has: what was probably meant.
+pub(crate) fn known(path: &str) -> Result<&'static keys::Key, String> {
     keys::find(path).ok_or_else(|| {
         let nearest = keys::nearest(path);
         let path = snippet(path);
@@ -224,7 +264,7 @@ fn insert(table: &mut Table, path: &str, value: Value) {
 }
 
 /// Line and column, both from 1, of a byte offset.
-fn place(text: &str, offset: usize) -> Place {
+pub(crate) fn place(text: &str, offset: usize) -> Place {
     let before = &text.as_bytes()[..offset.min(text.len())];
     let line = before.iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
     let column = before.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
@@ -232,7 +272,7 @@ fn place(text: &str, offset: usize) -> Place {
 }
 
 /// What is quoted from input is cut, as in traces.
-fn snippet(text: &str) -> String {
+pub(crate) fn snippet(text: &str) -> String {
     let text = text.replace('\n', " ");
     match text.char_indices().nth(200) {
         Some((end, _)) => format!("{}...", &text[..end]),

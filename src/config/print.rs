@@ -25,6 +25,13 @@ impl Config {
         }
         text
     }
+
+    /// The value at a dotted path; none for a key that is absent.
+    #[must_use]
+    pub fn value(&self, path: &str) -> Option<Value> {
+        let table = Table::try_from(self).expect("a configuration is plain data");
+        lookup(&table, path).cloned()
+    }
 }
 
 fn lookup<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {

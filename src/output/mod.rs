@@ -16,6 +16,7 @@ pub mod occupancy;
 #[cfg(feature = "gpu")]
 pub mod picture;
 pub mod ply;
+pub mod result;
 pub mod space;
 pub mod summary;
 pub mod svg;

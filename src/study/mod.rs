@@ -17,6 +17,8 @@ pub mod motion;
 #[cfg(feature = "gpu")]
 pub mod picture;
 mod plot;
+pub mod provenance;
 mod random;
 pub mod raster;
+pub mod sweep;
 pub mod walk;

@@ -2,11 +2,12 @@
 
 use super::{folder, up_to};
 use crate::cli::config::Laid;
-use crate::cli::{config, print};
+use crate::cli::print;
 use clap::builder::{PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use tessim::config::Config;
+use tessim::config::layers::text_of;
 use tessim::config::preset::Preset;
 use tessim::error::Result;
 use tessim::study::energy::Prices;
@@ -202,7 +203,7 @@ fn of_work(args: &EscWork, quiet: bool) -> Result<()> {
     let folder = folder(args.out.as_deref(), &NAMES, &work::CSV_HEADER)?;
     let base = args.laid.layers_over(Preset::Hd5870)?.finish()?;
     let prices = match &args.energy {
-        Some(path) => Prices::read(&path.display().to_string(), &config::text(path)?)?,
+        Some(path) => Prices::read(&path.display().to_string(), &text_of(path)?)?,
         None => Prices::default(),
     };
     let Levels(levels) = args.levels;
