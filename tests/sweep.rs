@@ -95,7 +95,8 @@ fn rows_are_in_the_order_of_the_study_and_say_what_runs_say() {
 #[test]
 fn a_point_is_repeated_by_the_command_that_lies_beside_it() {
     let study = "traces = [\"my fan's.jsonl\", \"mesh.jsonl\"]\n\
-                 units = [\"d3d11\", \"triangles\"]\n[set]\nlevel.pixels = 8\n[grid]\nengine = [\"timed\", \"none\"]\n";
+                 units = [\"d3d11\", \"triangles\"]\n[set]\nlevel.pixels = 8\n\
+                 [grid]\nengine = [\"timed\", \"none\"]\n";
     let place = Place::new(study);
     fs::copy(shipped("fan.jsonl"), place.path("my fan's.jsonl")).unwrap();
     place.swept("out");

@@ -237,7 +237,7 @@ mod tests {
         let kinds = [Kind::Count, Kind::Boolean, Kind::Integer, Kind::Real, Kind::Text];
         let names = ["a", "b", "c", "d", "e"];
         let row = |n: u64| {
-            let cells = [format!("{}", u64::MAX - n), "true".into(), format!("-{n}")];
+            let cells = [format!("{}", u64::MAX - n), "true".into(), format!("-{}", n + 1)];
             let nullable = if n % 3 == 0 {
                 [String::new(), String::new()]
             } else {
