@@ -337,3 +337,58 @@ fn same(one: &Path, other: &Path) -> io::Result<bool> {
         other.consume(count);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(store: &Store, files: &[(&str, &str)]) {
+        let claim = store.claim_tables().unwrap();
+        for (name, text) in files {
+            let write = |file: &mut BufWriter<File>| {
+                file.write_all(text.as_bytes()).map_err(|error| Error::system(name, error))
+            };
+            claim.draft(name, write).unwrap();
+        }
+        let names: Vec<_> = files.iter().map(|(name, _)| *name).collect();
+        claim.publish(&names).unwrap();
+    }
+
+    #[test]
+    fn tables_of_one_study_never_stand_beside_those_of_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path()).unwrap();
+        store.make().unwrap();
+        let there = |name: &str| folder.path().join(name).exists();
+        let (study, points) = (("study.toml", "one"), ("points.csv", "1"));
+        written(&store, &[study, points, ("sweep.csv", "1")]);
+        let before = fs::metadata(folder.path().join("sweep.csv")).unwrap().ino();
+        written(&store, &[study, points, ("sweep.csv", "1")]);
+        let after = fs::metadata(folder.path().join("sweep.csv")).unwrap().ino();
+        assert_eq!(before, after, "the same tables stay where they are");
+        assert_eq!(fs::read_dir(folder.path().join("work")).unwrap().count(), 0);
+        // What is not written anew is of the old study.
+        written(&store, &[study, ("points.csv", "2")]);
+        assert!(there("points.csv") && !there("sweep.csv"));
+        written(&store, &[("study.toml", "two")]);
+        assert!(there("study.toml") && !there("points.csv"));
+    }
+
+    #[test]
+    fn a_claim_is_of_one_at_a_time_and_ends_with_its_holder() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::at(folder.path()).unwrap();
+        store.make().unwrap();
+        let hash = "0123456789abcdef0123456789abcdef";
+        let claim = store.claim(hash, false).unwrap().expect("nobody has it");
+        assert!(store.claim(hash, false).unwrap().is_none());
+        assert_eq!(store.state(hash).unwrap(), State::Running);
+        drop(claim);
+        assert_eq!(store.state(hash).unwrap(), State::NeverRun);
+        let claim = store.claim(hash, false).unwrap().expect("it was given back");
+        claim.complete(&[("counters.csv", b"whole".to_vec())]).unwrap();
+        drop(claim);
+        assert_eq!(store.state(hash).unwrap(), State::Completed);
+        assert_eq!(fs::read_dir(folder.path().join("work")).unwrap().count(), 0);
+    }
+}
