@@ -94,8 +94,8 @@ enum Kind {
 
 impl Kind {
     /// The narrowest for these cells.
-    fn of<'a>(cells: impl Iterator<Item = &'a str> + Clone) -> Self {
-        let all = |fits: fn(&str) -> bool| cells.clone().filter(|cell| !cell.is_empty()).all(fits);
+    fn of(cells: &[&str]) -> Self {
+        let all = |fits: fn(&str) -> bool| cells.iter().all(|cell| cell.is_empty() || fits(cell));
         if all(|cell| cell.parse::<bool>().is_ok()) {
             Self::Boolean
         } else if all(|cell| cell.parse::<i64>().is_ok()) {
@@ -116,7 +116,7 @@ fn columns_of(plan: &Plan) -> Vec<Column> {
             (_, Some(key)) if key < plan.keys.len() => {
                 // A point without a configuration has no rows.
                 let points = plan.points.iter().filter(|point| point.hash.is_ok());
-                Kind::of(points.map(|point| point.values[key].as_str()))
+                Kind::of(&points.map(|point| point.values[key].as_str()).collect::<Vec<_>>())
             }
             _ => Kind::Text,
         };
@@ -228,7 +228,7 @@ mod tests {
             (["1", "true", ""], Kind::Text),
             (["agp4x", "", "2"], Kind::Text),
         ] {
-            assert_eq!(Kind::of(cells.into_iter()), kind, "{cells:?}");
+            assert_eq!(Kind::of(&cells), kind, "{cells:?}");
         }
     }
 
@@ -238,7 +238,7 @@ mod tests {
         let names = ["a", "b", "c", "d", "e"];
         let row = |n: u64| {
             let cells = [format!("{}", u64::MAX - n), "true".into(), format!("-{}", n + 1)];
-            let nullable = if n % 3 == 0 {
+            let nullable = if n.is_multiple_of(3) {
                 [String::new(), String::new()]
             } else {
                 ["0.5".into(), format!("x{n}")]

@@ -182,7 +182,7 @@ impl Text<'_> {
                 return Err(self.error(leaf.value.span().start, message));
             }
             let longer = combinations.iter().flat_map(|before: &Vec<Placed>| {
-                axis.iter().map(move |value| [before.as_slice(), &[value.clone()]].concat())
+                axis.iter().map(move |value| [before, std::slice::from_ref(value)].concat())
             });
             combinations = longer.collect();
         }
