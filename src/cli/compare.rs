@@ -39,7 +39,7 @@ pub(crate) struct Args {
     engine: Option<Engine>,
     /// Points of each patch's surface along u and along v whose distance from the triangles is
     /// measured; 0: no errors
-    #[arg(long, value_name = "N", default_value_t = 17, value_parser = samples)]
+    #[arg(long, value_name = "N", default_value_t = 17, value_parser = clap::value_parser!(u32).range(0..=256))]
     samples: u32,
     /// Also say what binds each unit in the first frame at each level from 1 to 64; with --out in
     /// roofline.csv and roofline.svg
@@ -77,14 +77,6 @@ const FILES: [&str; 3] = ["compare.csv", "config.toml", "summary.json"];
 
 /// What it may hold besides; other versions wrote less.
 const BESIDES: [&str; 4] = ["frames.csv", "pictures.png", "roofline.csv", "roofline.svg"];
-
-/// A grid of samples has two sides.
-fn samples(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(samples @ (0 | 2..=257)) => Ok(samples),
-        _ => Err("expected 0, or from 2 to 257".to_owned()),
-    }
-}
 
 pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let configs = args.configurations()?;

@@ -88,8 +88,7 @@ fn unknown(name: &str) -> String {
 }
 
 /// Runs the trace once for each of `configs`, at least one, in the current rayon pool. The surface
-/// of each tessellated patch is sampled at `samples` by `samples` points for its error; at none of
-/// them for 0 or 1. `watch` sees each command before its unit does.
+/// of each tessellated patch is sampled at `samples` by `samples` points for its error. `watch` sees each command before its unit does.
 ///
 /// # Errors
 /// Those of the trace and of [`simulate`]; [`Error::System`] for a trace that has changed between
@@ -116,7 +115,7 @@ pub fn run(
             }
             Ok(command)
         });
-        runs.push(one(commands, config, samples.saturating_sub(1))?);
+        runs.push(one(commands, config, samples)?);
         if last.is_some_and(|before| before.hash() != reader.hash()) {
             let changed = io::Error::other("it changed while its units were compared");
             return Err(Error::system(trace.path(), changed));
@@ -131,15 +130,15 @@ pub fn run(
 fn one(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,
-    segments: u32,
+    samples: u32,
 ) -> Result<Run> {
-    let scenes = RefCell::new(Scenes::new(config, segments > 0));
+    let scenes = RefCell::new(Scenes::new(config, samples > 0));
     let commands = commands.map(|command| {
         let command = command?;
         scenes.borrow_mut().command(&command)?;
         Ok(command)
     });
-    let mut gauge = Gauge::new(config, &scenes, segments);
+    let mut gauge = Gauge::new(config, &scenes, samples);
     let report = simulate(commands, config, &mut gauge)?;
     Ok(Run { report, seen: gauge.finish() })
 }

@@ -44,7 +44,8 @@ fn a_square_over_the_whole_viewport_covers_every_pixel_once() {
             assert_eq!([screen("pixels"), screen("samples")], [64 * 32; 2], "{}", unit.name());
             let [front, back] = ["triangles.front", "triangles.back"].map(screen);
             let all = numbers.count("emit", "triangles");
-            let expected = if reversed { [0, all] } else { [all, 0] };
+            // x to the right, y up, z away from the viewer: Su x Sv points away.
+            let expected = if reversed { [all, 0] } else { [0, all] };
             assert_eq!([front, back], expected, "{}", unit.name());
             // Flat, and on the sub-pixel grid to the half of its step.
             assert!(numbers.real("error", "largest") < 0.01, "{}", unit.name());

@@ -109,8 +109,8 @@ impl<'a> Scenes<'a> {
 pub(super) struct Gauge<'a> {
     config: &'a Config,
     scenes: &'a RefCell<Scenes<'a>>,
-    /// Samples of a patch along each direction are one more; 0: none.
-    segments: u32,
+    /// Samples of a patch along each direction; 0: none.
+    samples: u32,
     open: Option<Open>,
     frames: Vec<Seen>,
 }
@@ -136,8 +136,8 @@ struct Piece {
 }
 
 impl<'a> Gauge<'a> {
-    pub(super) fn new(config: &'a Config, scenes: &'a RefCell<Scenes<'a>>, segments: u32) -> Self {
-        Self { config, scenes, segments, open: None, frames: Vec::new() }
+    pub(super) fn new(config: &'a Config, scenes: &'a RefCell<Scenes<'a>>, samples: u32) -> Self {
+        Self { config, scenes, samples, open: None, frames: Vec::new() }
     }
 
     /// What was seen, frame by frame.
@@ -162,7 +162,7 @@ impl<'a> Gauge<'a> {
         let batch = std::mem::take(&mut open.batch);
         let scenes = self.scenes.borrow();
         let scene = scenes.frame(open.info.number);
-        let lens = Lens::new(open, scene, self.config, self.segments);
+        let lens = Lens::new(open, scene, self.config, self.samples);
         let each: Vec<_> = batch.into_par_iter().map(|piece| lens.measure(&piece)).collect();
         // In the order of the patches: sums of f64 are the same at any number of threads.
         let seen = each.iter().fold(open.seen, |seen, (triangles, deviation)| Seen {
@@ -208,17 +208,17 @@ struct Lens<'a> {
     frame: &'a Open,
     scene: &'a Scene,
     subpixel_bits: u32,
-    segments: u32,
+    samples: u32,
     /// Units that work in object space: from the world to clip space.
     to_clip: Option<DMat4>,
     ulp: f64,
 }
 
 impl<'a> Lens<'a> {
-    fn new(frame: &'a Open, scene: &'a Scene, config: &Config, segments: u32) -> Self {
+    fn new(frame: &'a Open, scene: &'a Scene, config: &Config, samples: u32) -> Self {
         let to_clip = config.unit.in_object_space().then(|| scene.to_world.inverse());
         let ulp = space::ulp(frame.info.view.position);
-        Self { frame, scene, subpixel_bits: config.emit.subpixel_bits, segments, to_clip, ulp }
+        Self { frame, scene, subpixel_bits: config.emit.subpixel_bits, samples, to_clip, ulp }
     }
 
     fn measure(&self, piece: &Piece) -> (Triangles, Deviation) {
@@ -231,14 +231,14 @@ impl<'a> Lens<'a> {
             &piece.screen
         };
         let triangles = self.triangles(piece, screen);
-        let deviation = if self.segments == 0 || piece.triangles.is_empty() {
+        let deviation = if self.samples == 0 || piece.triangles.is_empty() {
             Deviation::default()
         } else {
             let mesh = Mesh { vertices: clip().collect(), triangles: piece.triangles.clone() };
             let viewport = self.frame.info.view.viewport;
             let to_world = self.scene.to_world;
-            let (segments, samples) = (self.segments, Samples::InView);
-            let place = Place { to_world, viewport, segments, samples };
+            let samples = Samples::Middles(self.samples);
+            let place = Place { to_world, viewport, samples };
             distance::patch(&self.scene.truth[piece.patch as usize], &mesh, &place)
         };
         (triangles, deviation)

@@ -214,8 +214,7 @@ impl Truth {
         let place = |to_world: &DMat4| Place {
             to_world: *to_world,
             viewport: view.viewport,
-            segments,
-            samples: Samples::All,
+            samples: Samples::Ends(segments),
         };
         let pairs = self.0.par_iter().zip(&meshes.patches);
         let each =
