@@ -170,8 +170,29 @@ pub struct StageTimes {
     pub fifo_peak: u64,
 }
 
-/// Is told the time of every token. Times are those of the frame where frames drain.
+/// What holds up a token.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hold {
+    /// Its output has no room downstream.
+    Room,
+    /// Tokens of other lanes go first.
+    Order,
+    /// At the door, the memory port that stages share is taken.
+    Port,
+}
+
+/// Is told the time of every token: of each block's tokens in their order, whatever other blocks
+/// did before. Times are those of the frame where frames drain.
+///
+/// Between two tokens' leaving a block is told of the emissions of the second.
 pub trait Probe {
+    /// The oldest token of a lane was held up from cycle `from` until before cycle `to`; by the
+    /// port, the one that the lane accepts next. Told before that token is accepted or leaves, in
+    /// the order of time, and possibly in pieces.
+    fn held(&mut self, stage: usize, lane: usize, by: Hold, from: u64, to: u64) {
+        let _ = (stage, lane, by, from, to);
+    }
+
     /// The next token of a block was accepted.
     fn accepted(&mut self, stage: usize, lane: usize, at: u64) {
         let _ = (stage, lane, at);
@@ -182,9 +203,14 @@ pub trait Probe {
         let _ = (stage, at);
     }
 
-    /// The next token of a block left.
-    fn left(&mut self, stage: usize, at: u64) {
-        let _ = (stage, at);
+    /// The next token of a block left; its initiation interval is over at `next`.
+    fn left(&mut self, stage: usize, at: u64, next: u64) {
+        let _ = (stage, at, next);
+    }
+
+    /// A frame has drained in so many cycles: time starts again at 0.
+    fn drained(&mut self, elapsed: u64) {
+        let _ = elapsed;
     }
 }
 

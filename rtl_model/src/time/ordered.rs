@@ -7,7 +7,7 @@
 //! for each event, and computes the same where no port is shared.
 
 use super::account::{Fifo, Lanes};
-use super::{Block, Emit, FrameTimes, Frames, Probe, Shape, StageTimes, Times};
+use super::{Block, Emit, FrameTimes, Frames, Hold, Probe, Shape, StageTimes, Times};
 use std::collections::VecDeque;
 
 /// Never, as far as is known.
@@ -103,6 +103,11 @@ impl<B: Block, P: Probe> Ordered<B, P> {
         }
     }
 
+    /// Who is told the times.
+    pub fn probe(&mut self) -> &mut P {
+        &mut self.probe
+    }
+
     /// The host sends a token, as soon as the first block takes it.
     pub fn feed(&mut self, token: B::Token) {
         self.open_books();
@@ -124,6 +129,7 @@ impl<B: Block, P: Probe> Ordered<B, P> {
                 stage.drain(frame.elapsed, times);
             }
             self.port_free = 0;
+            self.probe.drained(frame.elapsed);
         }
     }
 
@@ -263,6 +269,9 @@ impl<B: Block> Stage<B> {
             waited_from: if port.is_some() { without_port } else { accept },
         });
         frames[frame].stages[self.index].tokens_in += 1;
+        if port.is_some() {
+            probe.held(self.index, lane, Hold::Port, without_port, accept);
+        }
         probe.accepted(self.index, lane, accept);
         let (in_flight, _) = self.busy[lane];
         self.busy[lane] = (in_flight + 1, next);
@@ -285,8 +294,11 @@ impl<B: Block> Stage<B> {
         // Its lane's older tokens have left, and its own earlier outputs.
         let lane = self.lanes.lane::<false>(flight.lane);
         let first = ready.max(lane.head);
-        flight.by_order += turn.saturating_sub(first);
-        flight.blocked += at.saturating_sub(turn.max(first));
+        let room = turn.max(first);
+        flight.by_order += room - first;
+        flight.blocked += at.saturating_sub(room);
+        probe.held(self.index, flight.lane, Hold::Order, first, room);
+        probe.held(self.index, flight.lane, Hold::Room, room, at.max(room));
         lane.head = at + 1;
         flight.outputs -= 1;
         flight.done = at;
@@ -308,7 +320,7 @@ impl<B: Block> Stage<B> {
             let Flight { lane, frame, .. } = flight;
             self.left = self.left.max(flight.done);
             frames[frame].elapsed = frames[frame].elapsed.max(self.left);
-            probe.left(self.index, self.left);
+            probe.left(self.index, self.left, flight.next);
             let books = self.lanes.lane::<false>(lane);
             books.turn_to(frame, |last| &mut frames[last].stages[self.index]);
             books.waited(flight.waited_from, flight.accept);

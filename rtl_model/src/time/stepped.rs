@@ -9,7 +9,7 @@
 //! Nothing here is computed ahead: attribution counts cycles one by one, each when the next one
 //! begins, for the cycle in which the last token leaves does not count.
 
-use super::{Block, Emit, FrameTimes, Frames, LaneOrder, Probe, Shape, StageTimes, Times};
+use super::{Block, Emit, FrameTimes, Frames, Hold, LaneOrder, Probe, Shape, StageTimes, Times};
 use std::collections::VecDeque;
 
 /// The engine.
@@ -63,6 +63,8 @@ struct Flight<T> {
     ready: u64,
     /// Whether its token leaves with it.
     last: bool,
+    /// Where it leaves with it: when the token's initiation interval is over.
+    next: u64,
     lane: usize,
     frame: usize,
 }
@@ -98,6 +100,17 @@ enum State {
     Busy,
     Blocked,
     BlockedByOrder,
+}
+
+impl State {
+    /// What held up the lane's oldest token in the cycle.
+    fn held(self) -> Option<Hold> {
+        match self {
+            Self::Blocked => Some(Hold::Room),
+            Self::BlockedByOrder => Some(Hold::Order),
+            Self::None | Self::Idle | Self::Waiting | Self::Busy => None,
+        }
+    }
 }
 
 impl Lane {
@@ -152,7 +165,8 @@ impl<T> Emit<T> for Outputs<'_, T> {
     fn emit(&mut self, token: T, offset: u64) {
         let Self { now, lane, frame, .. } = *self;
         let ready = now + offset;
-        self.flights.push_back(Flight { output: Some(token), ready, last: false, lane, frame });
+        let output = Some(token);
+        self.flights.push_back(Flight { output, ready, last: false, next: 0, lane, frame });
         self.any = true;
     }
 }
@@ -178,6 +192,11 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         }
     }
 
+    /// Who is told the times.
+    pub fn probe(&mut self) -> &mut P {
+        &mut self.probe
+    }
+
     /// The host sends a token, as soon as the first block takes it.
     pub fn feed(&mut self, token: B::Token) {
         self.open_books();
@@ -195,6 +214,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         self.frame += 1;
         if self.policy == Frames::Drain {
             self.drain();
+            self.probe.drained(self.left[self.frame - 1]);
             (self.now, self.port_free) = (0, 0);
             self.stages.iter_mut().for_each(Stage::restart);
         }
@@ -240,7 +260,7 @@ impl<B: Block, P: Probe> Stepped<B, P> {
         for k in 0..self.stages.len() {
             let (stages, after) = self.stages.split_at_mut(k + 1);
             let stage = &mut stages[k];
-            let pushed = stage.begin(self.now);
+            let pushed = stage.begin(self.now, &mut self.probe);
             if stage.held > 0 && stage.next_accept <= self.now {
                 stage.accept(self.now, granted == Some(k), &mut self.probe);
             }
@@ -329,9 +349,12 @@ impl<B: Block> Stage<B> {
 
     /// Begins a cycle: counts what the lanes did in the one before. Returns the frame of the token
     /// that has just been pushed and is not yet visible, if one was.
-    fn begin(&mut self, now: u64) -> Option<usize> {
-        for lane in &mut self.lanes {
+    fn begin(&mut self, now: u64, probe: &mut impl Probe) -> Option<usize> {
+        for (number, lane) in self.lanes.iter_mut().enumerate() {
             lane.cycles[lane.state as usize] += 1;
+            if let Some(by) = lane.state.held() {
+                probe.held(self.index, number, by, now - 1, now);
+            }
             lane.used += u64::from(lane.next_accept >= now && now > 0);
             lane.state = State::Idle;
         }
@@ -357,24 +380,31 @@ impl<B: Block> Stage<B> {
         let Entry { token, frame, .. } = self.fifo.pop_front().expect("a token is visible");
         let mut outputs = Outputs { flights: &mut self.flights, now, lane, frame, any: false };
         let cost = self.block.accept(&token, &mut outputs);
+        let next = now + cost.interval;
         if outputs.any {
-            self.flights.back_mut().expect("an output").last = true;
+            let output = self.flights.back_mut().expect("an output");
+            (output.last, output.next) = (true, next);
         } else {
             let ready = now + cost.latency;
-            self.flights.push_back(Flight { output: None, ready, last: true, lane, frame });
+            let flight = Flight { output: None, ready, last: true, next, lane, frame };
+            self.flights.push_back(flight);
         }
         self.next_accept = now + 1;
-        probe.accepted(self.index, lane, now);
         let times = &mut self.times[frame];
         times.tokens_in += 1;
         let taken = &mut self.lanes[lane];
+        let waited = taken.cycles[State::Waiting as usize];
+        if waited > 0 {
+            probe.held(self.index, lane, Hold::Port, now - waited, now);
+        }
+        probe.accepted(self.index, lane, now);
         taken.enter_idle(times);
         taken.in_flight += 1;
         if taken.last != frame {
             taken.enter_used(&mut self.times);
             taken.last = frame;
         }
-        taken.next_accept = now + cost.interval;
+        taken.next_accept = next;
         if self.shape.lanes > 1 {
             self.round_robin = (self.round_robin + 1) % self.lanes.len();
             // The others did not wait for the port: this token did not go to them.
@@ -396,7 +426,9 @@ impl<B: Block> Stage<B> {
         self.observe(now, room);
         let mut next = next;
         let mut emitted = false;
-        while let Some(&Flight { output, ready, last, lane, frame }) = self.flights.front() {
+        while let Some(&Flight { output, ready, last, next: over, lane, frame }) =
+            self.flights.front()
+        {
             if ready > now || output.is_some() && (emitted || !room) {
                 break;
             }
@@ -413,7 +445,7 @@ impl<B: Block> Stage<B> {
             if last {
                 self.lanes[lane].in_flight -= 1;
                 left[frame] = now;
-                probe.left(self.index, now);
+                probe.left(self.index, now, over);
             }
         }
     }

@@ -16,7 +16,7 @@
 //! other lanes, between `turn` and the time of emission for room.
 
 use super::account::{Fifo, Lanes};
-use super::{Block, Emit, FrameTimes, Frames, Probe, Shape, StageTimes, Times, Visitor};
+use super::{Block, Emit, FrameTimes, Frames, Hold, Probe, Shape, StageTimes, Times, Visitor};
 use std::marker::PhantomData;
 
 /// The rules as constants, so that tests can plant a mistake in this engine alone.
@@ -117,6 +117,11 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
         }
     }
 
+    /// Who is told the times.
+    pub fn probe(&mut self) -> &mut P {
+        &mut self.run.probe
+    }
+
     /// The host sends a token, as soon as the first block takes it.
     pub fn feed(&mut self, token: B::Token) {
         let first = self.stages.first_mut().expect("a chain has blocks");
@@ -139,6 +144,7 @@ impl<B: Block, P: Probe, R: Rules> Timed<B, P, R> {
             Frames::Drain => {
                 self.elapsed = 0;
                 self.run.port = 0;
+                self.run.probe.drained(elapsed);
                 (elapsed, stages.map(|books| books.drain(elapsed)).collect())
             }
             Frames::Overlap => {
@@ -255,6 +261,7 @@ impl<B: Block, P: Probe, R: Rules, const ONE: bool> Taker<'_, B, P, R, ONE> {
         }
         let mut outputs = Outputs::<B, P, R> {
             stage: books.index,
+            lane,
             accept,
             turn: books.next_emission.max(books.left),
             head: books.lanes.lane::<ONE>(lane).head,
@@ -284,7 +291,7 @@ impl<B: Block, P: Probe, R: Rules, const ONE: bool> Taker<'_, B, P, R, ONE> {
         if !ONE {
             books.lanes.took();
         }
-        self.run.probe.left(books.index, books.left);
+        self.run.probe.left(books.index, books.left, next);
     }
 }
 
@@ -299,6 +306,7 @@ fn by_evaluation(books: &Books, port: Option<u64>, from: u64, port_free: &mut u6
 /// Where a token's outputs go: before the next block.
 struct Outputs<'a, B: Block, P, R> {
     stage: usize,
+    lane: usize,
     accept: u64,
     /// The first cycle in which order lets the next output leave.
     turn: u64,
@@ -329,8 +337,12 @@ impl<B: Block, P: Probe, R: Rules> Emit<B::Token> for Outputs<'_, B, P, R> {
             next.inbox.push((token, at + 1));
         }
         if at > first {
-            self.by_order += turn.saturating_sub(first);
-            self.blocked += at - turn.max(first);
+            let room = turn.max(first);
+            self.by_order += room - first;
+            self.blocked += at - room;
+            let (stage, lane, probe) = (self.stage, self.lane, &mut self.run.probe);
+            probe.held(stage, lane, Hold::Order, first, room);
+            probe.held(stage, lane, Hold::Room, room, at);
         }
         self.turn = at + 1;
         self.head = at + 1;

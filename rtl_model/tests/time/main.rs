@@ -5,8 +5,8 @@ mod pipeline;
 mod tables;
 
 use pipeline::{Outcome, Pipeline, ordered, stepped, timed};
-use rtl_model::time::StageTimes;
 use rtl_model::time::timed::{Exact, Rules};
+use rtl_model::time::{Hold, StageTimes};
 
 /// Pipelines of a campaign: `TESSIM_LONG=1` asks for the long one.
 fn pipelines() -> u64 {
@@ -26,6 +26,8 @@ fn assert_conserved((times, log): &Outcome, pipeline: &Pipeline) {
         let parts = sum(|s| s.busy + s.starved + s.starved_by_port)
             + sum(|s| s.blocked + s.blocked_by_order);
         assert_eq!(parts, sum(|s| s.total));
+        assert_eq!(log.held_up(k, Hold::Room), sum(|s| s.blocked));
+        assert_eq!(log.held_up(k, Hold::Order), sum(|s| s.blocked_by_order));
         assert!(sum(|s| s.used) <= sum(|s| s.busy + s.blocked + s.blocked_by_order));
         assert_eq!(parts, elapsed * u64::from(shape.lanes), "lane-cycles of stage {k}");
         if k > 0 {

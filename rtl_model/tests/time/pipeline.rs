@@ -3,7 +3,7 @@
 use rtl_model::time::ordered::Ordered;
 use rtl_model::time::stepped::Stepped;
 use rtl_model::time::timed::{Rules, Timed};
-use rtl_model::time::{Block, Cost, Emit, Frames, LaneOrder, Probe, Shape, Times};
+use rtl_model::time::{Block, Cost, Emit, Frames, Hold, LaneOrder, Probe, Shape, Times};
 
 /// Pseudo-random numbers (splitmix64): a test's own, so that a seed means the same for ever.
 #[derive(Clone, Copy, Debug)]
@@ -118,21 +118,36 @@ fn shape(random: &mut Random, ports: bool) -> Shape {
     Shape { depth, in_flight, lanes, order, shares_port: ports && random.chance(40) }
 }
 
-/// The times of every token: lane and acceptance, emissions, leaving, by block.
+/// What held up a lane, and the cycles from and to.
+type Held = (Hold, u64, u64);
+
+/// The times of every token: lane and acceptance, emissions, leaving and the end of its interval,
+/// by block; what held up each lane.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Log {
     pub(crate) accepted: Vec<Vec<(usize, u64)>>,
     pub(crate) emitted: Vec<Vec<u64>>,
-    pub(crate) left: Vec<Vec<u64>>,
+    pub(crate) left: Vec<Vec<(u64, u64)>>,
+    pub(crate) held: Vec<Vec<Vec<Held>>>,
+    pub(crate) drained: Vec<u64>,
 }
 
 impl Log {
-    pub(crate) fn of(stages: usize) -> Self {
+    pub(crate) fn of<B>(chain: &[(B, Shape)]) -> Self {
+        let stages = chain.len();
         Self {
             accepted: vec![Vec::new(); stages],
             emitted: vec![Vec::new(); stages],
             left: vec![Vec::new(); stages],
+            held: chain.iter().map(|(_, shape)| vec![Vec::new(); shape.lanes as usize]).collect(),
+            drained: Vec::new(),
         }
+    }
+
+    /// Cycles in which a lane of a block was held up.
+    pub(crate) fn held_up(&self, stage: usize, by: Hold) -> u64 {
+        let held = self.held[stage].iter().flatten().filter(|held| held.0 == by);
+        held.map(|(_, from, to)| to - from).sum()
     }
 
     /// Tokens accepted anywhere.
@@ -150,8 +165,25 @@ impl Probe for Log {
         self.emitted[stage].push(at);
     }
 
-    fn left(&mut self, stage: usize, at: u64) {
-        self.left[stage].push(at);
+    fn left(&mut self, stage: usize, at: u64, next: u64) {
+        self.left[stage].push((at, next));
+    }
+
+    fn held(&mut self, stage: usize, lane: usize, by: Hold, from: u64, to: u64) {
+        if by == Hold::Port {
+            return; // only of a lane that has nothing in flight, which this log does not know
+        }
+        let held = &mut self.held[stage][lane];
+        match held.last_mut() {
+            // A piece of the same: one engine goes cycle by cycle.
+            Some(last) if last.0 == by && last.2 == from => last.2 = to,
+            _ if from < to => held.push((by, from, to)),
+            _ => {}
+        }
+    }
+
+    fn drained(&mut self, elapsed: u64) {
+        self.drained.push(elapsed);
     }
 }
 
@@ -171,16 +203,16 @@ macro_rules! run {
 }
 
 pub(crate) fn timed<R: Rules>(pipeline: &Pipeline) -> Outcome {
-    let log = Log::of(pipeline.chain.len());
+    let log = Log::of(&pipeline.chain);
     run!(Timed::<_, _, R>::new(pipeline.chain.clone(), pipeline.policy, log), pipeline)
 }
 
 pub(crate) fn stepped(pipeline: &Pipeline) -> Outcome {
-    let log = Log::of(pipeline.chain.len());
+    let log = Log::of(&pipeline.chain);
     run!(Stepped::new(pipeline.chain.clone(), pipeline.policy, log), pipeline)
 }
 
 pub(crate) fn ordered(pipeline: &Pipeline) -> Outcome {
-    let log = Log::of(pipeline.chain.len());
+    let log = Log::of(&pipeline.chain);
     run!(Ordered::new(pipeline.chain.clone(), pipeline.policy, log), pipeline)
 }
