@@ -1,7 +1,10 @@
 //! What a run reports: frame by frame the counters, what each block of the timed chain did, and,
 //! where an engine ran, its cycles. A leaf.
 
+pub mod timeline;
+
 use crate::config::Config;
+use crate::error::Error;
 use rtl_model::counter::standard::{self, ELAPSED, Stage, Work};
 use rtl_model::counter::{Block, Counter, Counters, DECLARATIONS, Declaration, Measure};
 use rtl_model::time::{FrameTimes, StageTimes};
@@ -34,6 +37,17 @@ pub struct Frame {
     pub work: Vec<Work>,
     /// Where the cycles went; `None` without an engine.
     pub times: Option<FrameTimes>,
+}
+
+/// A frame is asked for, by `--frame`, of a trace with so many.
+#[must_use]
+pub fn no_such_frame(number: u64, frames: usize) -> Error {
+    let numbered = match frames {
+        0 => "the trace has none".to_owned(),
+        1 => "the trace has frame 0 only".to_owned(),
+        _ => format!("the trace has frames 0 to {}", frames - 1),
+    };
+    Error::Usage(format!("--frame {number}: no such frame: {numbered}"))
 }
 
 /// What became of the patches of a frame or a run, each counted once: where those of a primitive

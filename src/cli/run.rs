@@ -8,27 +8,32 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::iter;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
-use tessim::config::{Config, Engine};
+use std::path::{Path, PathBuf};
+use tessim::config::{Config, Engine, Frames};
 use tessim::error::{Error, Result};
 use tessim::output::folder::ResultFolder;
 use tessim::output::mesh::{MeshFile, MeshForm};
 use tessim::output::summary::Provenance;
+use tessim::output::timeline::{self, Labels, TimelineFile};
 use tessim::output::{result, table};
 use tessim::report::Report;
+use tessim::report::timeline::{Timeline, Wanted, Window};
 use tessim::sink::{NoMesh, Sink};
 pub(super) use tessim::study::provenance::provenance;
 use tessim::trace::command::{Command, Header};
 use tessim::trace::open::Trace;
-use tessim::unit::simulate;
+use tessim::unit::{simulate, simulate_watched};
 
 /// Run a trace through a unit
 ///
 /// Prints a table; with --out writes config.toml, counters.csv, summary.json, and what was asked
-/// for: the mesh, and with an engine the occupancy of the FIFOs.
+/// for: the mesh, and with an engine the occupancy of the FIFOs. With --timeline writes what each
+/// block did and when.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  tessim run traces/teapot.jsonl --set level.level=8\n  \
-                        tessim run traces/teapot.jsonl --out result --mesh ply --frame 0")]
+                        tessim run traces/teapot.jsonl --out result --mesh ply --frame 0\n  \
+                        tessim run traces/teapot.jsonl --timeline teapot.json --timeline-window \
+                        cycles:0..5000")]
 pub(crate) struct Args {
     /// The trace; - for standard input
     trace: PathBuf,
@@ -43,8 +48,16 @@ pub(crate) struct Args {
     /// Also write the mesh of a frame (with --out)
     #[arg(long, value_name = "FORM", value_enum)]
     mesh: Option<Form>,
-    /// The frame whose mesh is written, from 0 [default: 0]
-    #[arg(long, value_name = "N", requires = "mesh")]
+    /// Also write the timeline of a frame: FILE.json for Perfetto or chrome://tracing, FILE.vcd
+    /// (FIFO levels and handshakes) for a waveform viewer; may be given for both
+    #[arg(long, value_name = "FILE", value_parser = timeline_file)]
+    timeline: Vec<PathBuf>,
+    /// The part of the frame that it shows: cycles:A..B, or patches:A..B, the cycles from when the
+    /// first of them is sent until all that came of the last has left [default: all]
+    #[arg(long, value_name = "WINDOW", requires = "timeline")]
+    timeline_window: Option<Window>,
+    /// The frame whose mesh or timeline is written, from 0 [default: 0]
+    #[arg(long, value_name = "N")]
     frame: Option<u64>,
     /// Run this frame alone, from 0: as a trace of its own, whose only frame is 0. What is live
     /// where the frame begins crosses the link before it and is counted in it
@@ -58,6 +71,12 @@ pub(crate) struct Args {
 pub(super) fn engines() -> impl TypedValueParser<Value = Engine> {
     PossibleValuesParser::new(Engine::ALL.map(Engine::name))
         .map(|name| Engine::named(&name).expect("only names of engines are possible values"))
+}
+
+fn timeline_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let known = timeline::Form::of(&path).is_some();
+    if known { Ok(path) } else { Err("expected a name that ends in .json or .vcd".to_owned()) }
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -84,14 +103,24 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     args.refuse_a_mesh_without_a_folder()?;
     let mut config = args.layered.configuration()?;
     config.engine = args.engine.unwrap_or(config.engine);
+    args.refuse_a_frame_of_nothing(&config)?;
     let pool = pool(args.threads)?;
     let reader = match args.only_frame {
         None => Trace::open(&args.trace)?,
         Some(frame) => Trace::open_frame(&args.trace, frame)?,
     };
     let folder = args.out.as_deref().map(ResultFolder::create).transpose()?;
+    let begin = |path: &PathBuf| {
+        let form = timeline::Form::of(path).expect("the arguments were read with their forms");
+        TimelineFile::create(path, form)
+    };
+    let timelines: Vec<_> = args.timeline.iter().map(begin).collect::<Result<_>>()?;
     let results = args.simulate(reader, &config, &pool, folder.as_ref(), quiet)?;
-    let Results { report, provenance } = results;
+    let Results { report, timeline, provenance } = results;
+    let labels = Labels { title: &provenance.title, config: &report.config };
+    for file in timelines {
+        file.finish(timeline.as_ref().expect("it was asked for"), &labels)?;
+    }
     if let Some(folder) = folder {
         for (name, bytes) in result::files(&report, &provenance) {
             folder.write(name, &bytes)?;
@@ -103,6 +132,7 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
 
 struct Results {
     report: Report,
+    timeline: Option<Timeline>,
     provenance: Provenance,
 }
 
@@ -114,6 +144,29 @@ impl Args {
             ));
         }
         Ok(())
+    }
+
+    fn refuse_a_frame_of_nothing(&self, config: &Config) -> Result<()> {
+        if self.frame.is_none() || self.mesh.is_some() {
+            return Ok(());
+        }
+        let message = if self.timeline.is_empty() {
+            "--frame is that of a mesh or a timeline: give --mesh or --timeline too"
+        } else if config.frames == Frames::Overlap
+            && !matches!(self.timeline_window, Some(Window::Patches(_)))
+        {
+            "--frame: frames overlap, and their timeline is one: expected a --timeline-window"
+        } else {
+            return Ok(());
+        };
+        Err(Error::Usage(message.to_owned()))
+    }
+
+    /// The part of the run that a timeline is wanted of.
+    fn wanted(&self) -> Option<Wanted> {
+        let window = self.timeline_window.clone().unwrap_or_default();
+        let wanted = Wanted { frame: self.frame.unwrap_or(0), window };
+        (!self.timeline.is_empty()).then_some(wanted)
     }
 
     fn simulate(
@@ -142,19 +195,23 @@ impl Args {
             progress.command(&command);
             Ok(command)
         });
-        let report = pool.install(|| {
+        let (report, timeline) = pool.install(|| {
             let mut none = NoMesh;
             let sink: &mut dyn Sink = match &mut mesh {
                 Some(mesh) => mesh,
                 None => &mut none,
             };
-            simulate(commands, config, sink)
+            match self.wanted() {
+                None => simulate(commands, config, sink).map(|report| (report, None)),
+                Some(wanted) => simulate_watched(commands, config, sink, &wanted)
+                    .map(|(report, timeline)| (report, Some(timeline))),
+            }
         })?;
         drop(progress);
         if let Some(mesh) = mesh {
             mesh.finish(report.frames.len())?;
         }
-        Ok(Results { report, provenance: provenance(header, &reader)? })
+        Ok(Results { report, timeline, provenance: provenance(header, &reader)? })
     }
 }
 

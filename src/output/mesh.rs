@@ -7,6 +7,7 @@ use super::ply::Ply;
 use super::svg::Svg;
 use crate::config::Config;
 use crate::error::{Error, Result};
+use crate::report::no_such_frame;
 use crate::sink::{FrameInfo, PatchMesh, Sink};
 use std::path::Path;
 
@@ -85,13 +86,7 @@ impl MeshFile {
     /// written.
     pub fn finish(self, frames: usize) -> Result<()> {
         if self.frame.is_none() {
-            let number = self.number;
-            let numbered = match frames {
-                0 => "the trace has none".to_owned(),
-                1 => "the trace has frame 0 only".to_owned(),
-                _ => format!("the trace has frames 0 to {}", frames - 1),
-            };
-            return Err(Error::Usage(format!("--frame {number}: no such frame: {numbered}")));
+            return Err(no_such_frame(self.number, frames));
         }
         match self.form {
             Form::Ply(ply) => ply.finish(),

@@ -21,6 +21,7 @@ pub mod space;
 pub mod summary;
 pub mod svg;
 pub mod table;
+pub mod timeline;
 
 #[cfg(test)]
 mod sample;

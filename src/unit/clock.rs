@@ -2,17 +2,20 @@
 //! configuration names times it.
 
 use super::chain::{self, Flow, Meshed, Pattern, Token, Work};
+use super::timeline::Recorder;
 use crate::config::{Config, Engine, TransferMode};
+use crate::error::Result;
 use crate::link::Transfer;
 use crate::link::framing::Pieces;
 use crate::link::schedule::Parcel;
+use crate::report::timeline::Wanted;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::patch::Lists;
 use rtl_model::strip::Segments;
-use rtl_model::time::Times;
 use rtl_model::time::ordered::Ordered;
 use rtl_model::time::stepped::Stepped;
 use rtl_model::time::timed::Timed;
+use rtl_model::time::{Probe, Times};
 
 /// Most payload bytes of a parcel under `push`: those of its bursts fit 32 bits.
 const PARCEL_MAX: u64 = 1 << 30;
@@ -61,10 +64,17 @@ enum Running<T: Flow> {
     None,
     /// Keeps what the host sends.
     Recording(Tokens<T>),
-    Timed(Box<Timed<T::Stage>>),
+    Plain(Timer<T, ()>),
+    /// What happens when is recorded.
+    Watched(Timer<T, Recorder>),
+}
+
+/// An engine.
+enum Timer<T: Flow, P> {
+    Timed(Box<Timed<T::Stage, P>>),
     /// Where stages share a memory port, who gets it depends on the order of time.
-    Ordered(Box<Ordered<T::Stage>>),
-    Stepped(Box<Stepped<T::Stage>>),
+    Ordered(Box<Ordered<T::Stage, P>>),
+    Stepped(Box<Stepped<T::Stage, P>>),
 }
 
 /// Control points of a patch that come from memory or from on chip.
@@ -74,6 +84,10 @@ pub(super) struct Fetch {
     pub(super) points: u8,
     /// Bytes of the bursts that bring them, where they are resident.
     pub(super) read: u32,
+    /// The patch's number within its frame.
+    pub(super) patch: u32,
+    /// It comes again, to be drawn.
+    pub(super) measured: bool,
 }
 
 /// What the host sent in a run, frame by frame.
@@ -90,7 +104,7 @@ impl<T: Flow> Tokens<T> {
             frame.iter().for_each(|&token| engine.feed(token));
             engine.end_frame();
         }
-        engine.finish()
+        engine.finish().map(|(times, _)| times)
     }
 
     fn len(&self) -> usize {
@@ -136,27 +150,71 @@ impl Recording {
     }
 }
 
-impl<T: Flow> Running<T> {
-    fn new(config: &Config) -> Self {
+impl<T: Flow, P: Probe> Timer<T, P> {
+    /// The engine that the configuration names, if it names one.
+    fn new(config: &Config, probe: P) -> Option<Self> {
         let chain = chain::stages::<T>(config);
         let shared = chain.iter().any(|(_, shape)| shape.shares_port);
-        match config.engine {
-            Engine::None => Self::None,
-            Engine::Timed if shared => {
-                Self::Ordered(Box::new(Ordered::new(chain, config.frames, ())))
-            }
-            Engine::Timed => Self::Timed(Box::new(Timed::new(chain, config.frames, ()))),
-            Engine::Stepped => Self::Stepped(Box::new(Stepped::new(chain, config.frames, ()))),
+        let frames = config.frames;
+        Some(match config.engine {
+            Engine::None => return None,
+            Engine::Timed if shared => Self::Ordered(Box::new(Ordered::new(chain, frames, probe))),
+            Engine::Timed => Self::Timed(Box::new(Timed::new(chain, frames, probe))),
+            Engine::Stepped => Self::Stepped(Box::new(Stepped::new(chain, frames, probe))),
+        })
+    }
+
+    fn feed(&mut self, token: Token<T>) {
+        match self {
+            Self::Timed(engine) => engine.feed(token),
+            Self::Ordered(engine) => engine.feed(token),
+            Self::Stepped(engine) => engine.feed(token),
         }
+    }
+
+    fn end_frame(&mut self) {
+        match self {
+            Self::Timed(engine) => engine.end_frame(),
+            Self::Ordered(engine) => engine.end_frame(),
+            Self::Stepped(engine) => engine.end_frame(),
+        }
+    }
+
+    fn probe(&mut self) -> &mut P {
+        match self {
+            Self::Timed(engine) => engine.probe(),
+            Self::Ordered(engine) => engine.probe(),
+            Self::Stepped(engine) => engine.probe(),
+        }
+    }
+
+    fn finish(self) -> (Times, P) {
+        match self {
+            Self::Timed(engine) => engine.finish(),
+            Self::Ordered(engine) => engine.finish(),
+            Self::Stepped(engine) => engine.finish(),
+        }
+    }
+}
+
+impl<T: Flow> Running<T> {
+    fn new(config: &Config) -> Self {
+        Timer::new(config, ()).map_or(Self::None, Self::Plain)
+    }
+
+    /// With a recorder, if there is an engine.
+    fn watched(config: &Config, wanted: &Wanted) -> Self {
+        let shapes = chain::shapes(config).map(|(_, shape)| shape);
+        let recorder = Recorder::new(wanted, config.frames, shapes);
+        Timer::new(config, recorder).map_or(Self::None, Self::Watched)
     }
 
     fn feed(&mut self, token: Token<T>) {
         match self {
             Self::None => {}
             Self::Recording(recording) => recording.frame.push(token),
-            Self::Timed(engine) => engine.feed(token),
-            Self::Ordered(engine) => engine.feed(token),
-            Self::Stepped(engine) => engine.feed(token),
+            Self::Plain(engine) => engine.feed(token),
+            Self::Watched(engine) => engine.feed(token),
         }
     }
 
@@ -167,18 +225,30 @@ impl<T: Flow> Running<T> {
                 let frame = std::mem::take(&mut recording.frame);
                 recording.frames.push(frame);
             }
-            Self::Timed(engine) => engine.end_frame(),
-            Self::Ordered(engine) => engine.end_frame(),
-            Self::Stepped(engine) => engine.end_frame(),
+            Self::Plain(engine) => engine.end_frame(),
+            Self::Watched(engine) => {
+                engine.end_frame();
+                engine.probe().end_frame();
+            }
         }
     }
 
-    fn finish(self) -> Option<Times> {
+    fn recorder(&mut self) -> Option<&mut Recorder> {
+        match self {
+            Self::Watched(engine) => Some(engine.probe()),
+            _ => None,
+        }
+    }
+
+    fn finish(self) -> Option<(Times, Option<Recorder>)> {
         match self {
             Self::None | Self::Recording(_) => None,
-            Self::Timed(engine) => Some(engine.finish().0),
-            Self::Ordered(engine) => Some(engine.finish().0),
-            Self::Stepped(engine) => Some(engine.finish().0),
+            Self::Plain(engine) => Some((engine.finish().0, None)),
+            Self::Watched(engine) => {
+                let (times, mut recorder) = engine.finish();
+                recorder.end_run(times.frames.iter().map(|frame| frame.elapsed).sum());
+                Some((times, Some(recorder)))
+            }
         }
     }
 }
@@ -186,6 +256,11 @@ impl<T: Flow> Running<T> {
 impl<T: Flow> Clock<T> {
     pub(super) fn new(config: &Config) -> Self {
         Self::with(config, Running::new(config))
+    }
+
+    /// A clock of which a part is recorded.
+    pub(super) fn watched(config: &Config, wanted: &Wanted) -> Self {
+        Self::with(config, Running::watched(config, wanted))
     }
 
     /// A clock that no time is laid over, but which remembers what it was given.
@@ -218,6 +293,9 @@ impl<T: Flow> Clock<T> {
         };
         self.sent.link_bytes += parcel.down + u64::from(parcel.up);
         self.sent.memory_bytes += u64::from(parcel.read) + u64::from(parcel.written);
+        if let Some(recorder) = self.engine.recorder() {
+            recorder.sent([parcel.down, parcel.up.into()]);
+        }
         self.engine.feed(token);
     }
 
@@ -249,15 +327,21 @@ impl<T: Flow> Clock<T> {
     /// A patch of the command that was sent last, and what became of it: fetched by the unit, or
     /// sent as vertices of so many bytes.
     pub(super) fn patch(&mut self, fetch: Fetch, work: Work<T>, vertex_bytes: u64) {
+        let Fetch { points, read, patch, measured } = fetch;
+        if let Some(recorder) = self.engine.recorder() {
+            recorder.begin_patch(patch);
+        }
         if self.config.unit.host_tessellates() {
             let [vertices, triangles] = work.made();
             self.draw[0] += vertices;
             self.draw[1] += triangles;
             self.stream(vertices * vertex_bytes, vertices);
         } else {
-            let Fetch { points, read } = fetch;
             let parcel = Parcel { points, read, ..Parcel::default() };
             self.feed(Token::Parcel(parcel, Some(work)));
+        }
+        if let Some(recorder) = self.engine.recorder().filter(|_| !measured) {
+            recorder.end_patch(patch);
         }
     }
 
@@ -305,8 +389,14 @@ impl<T: Flow> Clock<T> {
         std::mem::take(&mut self.sent)
     }
 
-    /// The times of the run, if an engine ran.
-    pub(super) fn finish(self) -> Option<Times> {
+    /// # Errors
+    /// When more would have to be recorded than can be.
+    pub(super) fn check(&mut self) -> Result<()> {
+        self.engine.recorder().map_or(Ok(()), |recorder| recorder.check())
+    }
+
+    /// The times of the run, if an engine ran, and what was recorded.
+    pub(super) fn finish(self) -> Option<(Times, Option<Recorder>)> {
         self.engine.finish()
     }
 }

@@ -107,7 +107,8 @@ impl Instance {
         self.received[0] += points;
         self.received[2] += u64::from(points == 0);
         let read = u32::try_from(bursts * u64::from(config.memory.burst));
-        Fetch { points: points as u8, read: read.expect("a patch's bursts are few") }
+        let read = read.expect("a patch's bursts are few");
+        Fetch { points: points as u8, read, ..Fetch::default() }
     }
 
     /// Bursts that bring the patch's control points.

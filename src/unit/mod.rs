@@ -7,7 +7,8 @@
 //! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11` or `esc`. `union`
 //! holds the lists that patches of a primitive share, `edges` what it keeps of their edges; `wave`
 //! gathers patches that a surface shader makes side by side; `chain` and `clock` put it all on the
-//! clock; `tokens` and `arithmetic` say from a frame's counters what flowed and what it took.
+//! clock, of which `timeline` records what happened when; `tokens` and `arithmetic` say from a
+//! frame's counters what flowed and what it took.
 
 pub mod arithmetic;
 mod attributes;
@@ -28,13 +29,15 @@ mod run;
 mod sfarti;
 mod state;
 mod surface;
+mod timeline;
 mod tokens;
 mod union;
 mod wave;
 
-use crate::config::{Config, Unit};
-use crate::error::Result;
-use crate::report::Report;
+use crate::config::{Config, Engine, Unit};
+use crate::error::{Error, Result};
+use crate::report::timeline::{Timeline, Wanted};
+use crate::report::{Report, no_such_frame};
 use crate::sink::{NoMesh, Sink};
 use crate::trace::command::Command;
 use rtl_model::counter::standard::{Stage, Work};
@@ -52,6 +55,7 @@ use pipeline::Make;
 use run::Run;
 use sfarti::Sfarti;
 use surface::Surface;
+use timeline::Recorder;
 
 /// Carries out the commands of a trace on the configured unit, in the current rayon pool; any
 /// number of threads gives the same bytes.
@@ -69,12 +73,48 @@ pub fn simulate(
     sink: &mut dyn Sink,
 ) -> Result<Report> {
     config.check()?;
+    Ok(on_the_unit(commands, config, sink, None)?.0)
+}
+
+/// As [`simulate`], and what happened when in the wanted part of the run. The report is the same.
+///
+/// # Errors
+/// As [`simulate`]; [`Error::Usage`] without an engine, when the trace has no such frame or the
+/// frame no such part, and when the part is larger than can be kept.
+///
+/// # Panics
+/// As [`simulate`].
+pub fn simulate_watched(
+    commands: impl Iterator<Item = Result<Command>>,
+    config: &Config,
+    sink: &mut dyn Sink,
+    wanted: &Wanted,
+) -> Result<(Report, Timeline)> {
+    config.check()?;
+    if config.engine == Engine::None {
+        let message = "a timeline needs an engine: found none, expected timed or stepped";
+        return Err(Error::Usage(message.to_owned()));
+    }
+    let (report, recorder) = on_the_unit(commands, config, sink, Some(wanted))?;
+    let recorder = recorder.ok_or_else(|| no_such_frame(wanted.frame, report.frames.len()))?;
+    let timeline = recorder.into_timeline(&report)?;
+    Ok((report, timeline))
+}
+
+fn on_the_unit(
+    commands: impl Iterator<Item = Result<Command>>,
+    config: &Config,
+    sink: &mut dyn Sink,
+    wanted: Option<&Wanted>,
+) -> Result<(Report, Option<Recorder>)> {
     match config.unit {
-        Unit::Hybrid | Unit::Triangles => carry_out::<Surface<Hybrid>>(commands, config, sink),
-        Unit::Sfarti => carry_out::<Surface<Sfarti>>(commands, config, sink),
-        Unit::Moreton => carry_out::<Surface<Moreton>>(commands, config, sink),
-        Unit::D3d11 => carry_out::<D3d11>(commands, config, sink),
-        Unit::Esc => carry_out::<Esc>(commands, config, sink),
+        Unit::Hybrid | Unit::Triangles => {
+            carry_out::<Surface<Hybrid>>(commands, config, sink, wanted)
+        }
+        Unit::Sfarti => carry_out::<Surface<Sfarti>>(commands, config, sink, wanted),
+        Unit::Moreton => carry_out::<Surface<Moreton>>(commands, config, sink, wanted),
+        Unit::D3d11 => carry_out::<D3d11>(commands, config, sink, wanted),
+        Unit::Esc => carry_out::<Esc>(commands, config, sink, wanted),
     }
 }
 
@@ -82,8 +122,12 @@ fn carry_out<M: Make>(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,
     sink: &mut dyn Sink,
-) -> Result<Report> {
-    let mut run = Run::<M>::new(config, sink);
+    wanted: Option<&Wanted>,
+) -> Result<(Report, Option<Recorder>)> {
+    let mut run = match wanted {
+        None => Run::<M>::new(config, sink),
+        Some(wanted) => Run::<M>::watched(config, sink, wanted),
+    };
     for command in commands {
         run.command(&command?)?;
     }

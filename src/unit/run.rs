@@ -5,10 +5,12 @@ use super::batch::{self, Batch, Tally};
 use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
 use super::pipeline::Make;
+use super::timeline::Recorder;
 use super::{blocks, chain, work};
 use crate::config::{Config, Unit};
 use crate::error::Result;
 use crate::link::{self, Transfer};
+use crate::report::timeline::Wanted;
 use crate::report::{Frame as FrameReport, Report};
 use crate::sink::{FrameInfo, Grid, Sink};
 use crate::trace::command::{Command, Frame, Points, Tessellation};
@@ -71,6 +73,11 @@ impl<'a, M: Make> Run<'a, M> {
         Self { clock: Clock::recording(config), ..Self::new(config, sink) }
     }
 
+    /// A run of whose times a part is wanted.
+    pub(super) fn watched(config: &'a Config, sink: &'a mut dyn Sink, wanted: &Wanted) -> Self {
+        Self { clock: Clock::watched(config, wanted), ..Self::new(config, sink) }
+    }
+
     pub(super) fn finish_recording(mut self) -> Result<Tokens<M::Lists>> {
         self.end_frame()?;
         Ok(self.clock.into_recording().expect("it was recorded"))
@@ -117,13 +124,13 @@ impl<'a, M: Make> Run<'a, M> {
         Ok(())
     }
 
-    pub(super) fn finish(mut self) -> Result<Report> {
+    pub(super) fn finish(mut self) -> Result<(Report, Option<Recorder>)> {
         self.end_frame()?;
         // What stands behind the trace's last frame, or in a trace without any, is in no frame.
         let times = if self.frames.is_empty() { None } else { self.clock.finish() };
-        let (mut times, occupancy) = match times {
-            None => (None, Vec::new()),
-            Some(times) => (Some(times.frames.into_iter()), times.occupancy),
+        let (mut times, occupancy, recorder) = match times {
+            None => (None, Vec::new(), None),
+            Some((times, recorder)) => (Some(times.frames.into_iter()), times.occupancy, recorder),
         };
         let frames = self.frames.into_iter().map(|(counters, work)| {
             let times = times.as_mut().map(|times| times.next().expect("every frame was timed"));
@@ -139,7 +146,7 @@ impl<'a, M: Make> Run<'a, M> {
             host_link_bytes: self.host_link_bytes,
         };
         report.check();
-        Ok(report)
+        Ok((report, recorder))
     }
 
     fn begin_frame(&mut self, command: &Command, frame: &Frame) -> Result<()> {
@@ -186,6 +193,7 @@ impl<'a, M: Make> Run<'a, M> {
         }
         let counters = std::mem::take(&mut self.counters);
         let sent = self.clock.end_frame();
+        self.clock.check()?;
         sent.check(self.config, &counters);
         let work = work(&self.chain, &counters, sent.tokens, self.config);
         self.frames.push((counters, work));
@@ -218,7 +226,7 @@ impl<'a, M: Make> Run<'a, M> {
         for tally in tallies {
             batch::add(&mut self.tallies, tally);
         }
-        Ok(())
+        self.clock.check()
     }
 }
 

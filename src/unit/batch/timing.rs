@@ -4,7 +4,7 @@
 use super::Batch;
 use crate::config::Config;
 use crate::unit::chain::{Fate, Flow, Work as Done};
-use crate::unit::clock::Clock;
+use crate::unit::clock::{Clock, Fetch};
 use crate::unit::edges::{EdgeDatabase, Held};
 use crate::unit::wave::Former;
 
@@ -45,7 +45,8 @@ impl<'a, T: Flow> Timing<'a, T> {
                 self.held.shared += held.shared;
                 self.held.entries = self.held.entries.max(held.entries);
             }
-            let waiting = (patch.fetch, work, draw.vertex_bytes);
+            let fetch = Fetch { patch: patch.id, measured: draw.measures(), ..patch.fetch };
+            let waiting = (fetch, work, draw.vertex_bytes);
             let clock = &mut *self.clock;
             self.waves.accept(draw.number, waiting, &mut |(f, w, bytes)| clock.patch(f, w, bytes));
             self.patches += 1;
