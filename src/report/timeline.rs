@@ -2,8 +2,8 @@
 //! and out of each FIFO and when, what had crossed the link by when. The units record it
 //! (`unit::timeline`), [`output`](crate::output::timeline) writes it.
 //!
-//! All cycles are those of the frame, or of the run where frames overlap. A lane's changes are kept,
-//! not its slices: each lasts until the next, so that they cover the window without a gap.
+//! All cycles are those of the frame, or of the run where frames overlap. A lane's changes are
+//! kept, not its slices: each lasts until the next, so that they cover the window without a gap.
 
 use rtl_model::counter::standard::{self, Quantity, Stage};
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! One lane of a timeline, and one end of a FIFO: what happened, in the order of time, goes in; what
-//! of it is within the window is kept.
+//! One lane of a timeline, and one end of a FIFO: what happened, in the order of time, goes in;
+//! what of it is within the window is kept.
 
 use crate::report::timeline::{Change, State};
 use std::collections::VecDeque;
