@@ -41,8 +41,10 @@ pub(super) struct Recorder {
     sending: u64,
     sent: u64,
     patches: u32,
-    /// Of a window of patches: the token that it begins with.
+    /// Of a window of patches: the token that it begins with, and the cycle after what came of the
+    /// last patch had left the blocks that the mark has passed.
     first: Option<u64>,
+    behind: u64,
     /// The length of the frame, or of the run, once it has ended.
     elapsed: Option<u64>,
 }
@@ -100,6 +102,7 @@ impl Recorder {
             sent: 0,
             patches: 0,
             first: None,
+            behind: 0,
             elapsed: None,
         }
     }
@@ -162,16 +165,17 @@ impl Recorder {
     /// Moves the mark on from stage `k`, if its token has left.
     fn follow(&mut self, k: usize) {
         for k in k..self.stages.len() {
-            let StageLog { mark, left, emitted, .. } = self.stages[k];
+            let StageLog { mark, left, left_at, emitted, .. } = self.stages[k];
             if mark != Some(left) {
                 return;
             }
+            // By the time the mark is through the chain, later tokens have left this block.
+            self.behind = self.behind.max(left_at + 1);
             if let Some(next) = self.stages.get_mut(k + 1) {
                 next.mark = Some(emitted);
             }
         }
-        let end = self.stages.iter().map(|stage| stage.left_at + 1).max();
-        self.bounds.end = self.bounds.end.or(end);
+        self.bounds.end = self.bounds.end.or(Some(self.behind));
     }
 
     /// # Errors
@@ -180,8 +184,9 @@ impl Recorder {
         if self.bounds.kept <= CHANGES_MAX {
             return Ok(());
         }
-        let stages = self.stages.iter().flat_map(|stage| &stage.lanes);
-        let reached = stages.map(|lane| lane.covered).min().unwrap_or(0);
+        // Of lanes that have long been idle it is not known until when.
+        let lanes = self.stages.iter().flat_map(|stage| &stage.lanes);
+        let reached = lanes.map(|lane| lane.covered).max().unwrap_or(0);
         let from = self.bounds.floor;
         Err(Error::Usage(format!(
             "--timeline: more than {CHANGES_MAX} changes, from cycle {from} to about {reached}: \

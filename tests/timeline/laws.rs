@@ -82,6 +82,8 @@ fn fifos_agree(frames: &[crate::Seen], report: &Report, place: &str) -> usize {
             let (cycles, most) = histogram(&seen.fifos[name], seen.elapsed, depth);
             sum.iter_mut().zip(cycles).for_each(|(sum, cycles)| *sum += cycles);
             if frames.len() == report.frames.len() {
+                // An entry that is first there in the last cycle counts in `fifo.peak` alone: that
+                // cycle is not one of the elapsed. No FIFO here is empty until then.
                 let rows = report.rows(&report.frames[number]);
                 let mut rows = rows.iter().filter(|row| row.block == stage.block);
                 let peak = rows.find(|row| row.name == "fifo.peak").unwrap().value;
