@@ -15,6 +15,7 @@ pub mod layers;
 pub mod link;
 pub mod preset;
 pub mod print;
+pub mod triangles;
 mod union;
 
 use serde::{Deserialize, Serialize};
@@ -30,6 +31,9 @@ pub use rtl_model::evaluate::{Normals, Scheme};
 pub use rtl_model::level::Termination;
 pub use rtl_model::number::{Overflow, Rounding};
 pub use rtl_model::time::{Frames, LaneOrder};
+pub use triangles::{
+    CachePolicy, IndexWidth, MeshTopology, Residency, Triangles, Upload, VertexCache,
+};
 pub use union::Union;
 
 /// Widest position format.
@@ -320,16 +324,6 @@ pub struct VertexShader {
     pub bytes_out: u32,
     /// Whether shaded vertices are also written to device memory (stream output).
     pub to_memory: bool,
-}
-
-/// Unit `triangles`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Triangles {
-    /// Bytes of a vertex on the link: position 12, normal 12, texture coordinates 8.
-    pub vertex_bytes: u32,
-    /// Bytes of a vertex besides its attributes, in draws that have them: position 12, normal 12.
-    pub bare_vertex_bytes: u32,
 }
 
 impl Attributes {

@@ -87,6 +87,8 @@ pub enum Block {
     Surface,
     /// Perspective divide and output.
     Emit,
+    /// Index fetch, and the cache of shaded vertices.
+    VertexCache,
     /// The vertex shader.
     VertexShader,
     /// The unit as a whole.
@@ -118,6 +120,7 @@ impl Block {
             Self::Group => "group",
             Self::Surface => "surface",
             Self::Emit => "emit",
+            Self::VertexCache => "vertex_cache",
             Self::VertexShader => "vertex_shader",
             Self::Unit => "unit",
         }
@@ -172,8 +175,8 @@ counters! {
         LinkControlPoints "bytes.control_points" Bytes "control points, 12 bytes (xyz) or 16 (xyzw), where their command stands", "";
         LinkAttributes "bytes.attributes" Bytes "attributes of corners, each component by its format, where their command stands", "";
         LinkFactors "bytes.factors" Bytes "levels that the driver chose: 4 floats a patch (unit `moreton`), or 4 bytes an instance (unit `esc`, `esc.scope` object)", "= 16 x trace patches, 4 x instances, or 0";
-        LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`)", "";
-        LinkIndices "bytes.indices" Bytes "indices of indexed meshes, 2 or 4 bytes each: 16 a patch, and 4 of its corners' attributes; in unit `triangles` those of triangles, 2 bytes, or 4 where a draw has more than 65536 vertices", "";
+        LinkVertices "bytes.vertices" Bytes "tessellated vertices with all their attributes (unit `triangles`): once where they are streamed, at their upload where they are resident", "";
+        LinkIndices "bytes.indices" Bytes "indices of indexed meshes, 2 or 4 bytes each: 16 a patch, and 4 of its corners' attributes; in unit `triangles` those of triangles, likewise, of 2 or 4 bytes (`triangles.index`)", "";
         LinkOverhead "bytes.overhead" Bytes "packet framing: one header for each started packet of a command's payload; under pull for each completion of its reads", "";
         LinkRequests "bytes.requests" Bytes "read requests, upstream: one for each started `link.request` bytes of a command under pull; 0 under push", "";
         LinkTotal "bytes.total" Bytes "all bytes that crossed the link, in both directions", "= sum of the other link bytes";
@@ -186,8 +189,13 @@ counters! {
         MemoryWrittenAttributes "bytes.written.attributes" Bytes "resident attributes, written once where their command stands", "<= link bytes.attributes";
         MemoryReadPatches "bytes.read.patches" Bytes "what hull shaders wrote, read by domain shaders, once for each patch that is tessellated (`hull.to_memory`; unit `d3d11`)", "<= bytes.written.patches";
         MemoryWrittenPatches "bytes.written.patches" Bytes "what hull shaders wrote for domain shaders (`hull.to_memory`; unit `d3d11`)", "= hull bytes.out, or 0";
+        MemoryReadVertices "bytes.read.vertices" Bytes "vertices of triangles, read for each invocation of the vertex shader (unit `triangles`, where they are resident or a cache may ask for them again)", "= vertex_cache misses x bytes of a vertex, or 0";
+        MemoryWrittenVertices "bytes.written.vertices" Bytes "vertices of triangles, written as they cross the link (unit `triangles`)", "= link bytes.vertices, or 0";
+        MemoryReadIndices "bytes.read.indices" Bytes "indices of triangles, read by each instance of each draw (unit `triangles`)", "= vertex_cache indices x 2 or 4, or 0";
+        MemoryWrittenIndices "bytes.written.indices" Bytes "indices of triangles, written as they cross the link (unit `triangles`)", "= link bytes.indices, or 0";
+        MemoryMeshesPeak "bytes.meshes.peak" Bytes "most bytes that vertices and indices of triangles take in memory at once (unit `triangles`): of all meshes that are resident, or of the greatest draw", "<= bytes written, over the run";
         MemoryPatchBursts "bursts.patches" Count "of the bursts, those of what hull shaders wrote; each patch starts a burst of its own", "<= bursts";
-        MemoryBursts "bursts" Count "memory bursts, read and written; each instance of a draw, each upload, and each point of an indexed mesh that does not follow the one before starts a burst of its own", "bursts x burst = bytes read + written + wasted";
+        MemoryBursts "bursts" Count "memory bursts, read and written; each instance of a draw, each upload, and each point or vertex of an indexed mesh that does not follow the one before starts a burst of its own", "bursts x burst = bytes read + written + wasted";
         MemoryWasted "bytes.wasted" Bytes "bytes of bursts that nothing asked for", "";
     }
     Transform {
@@ -341,8 +349,17 @@ counters! {
         EmitBytes "bytes" Bytes "vertex records, attributes and triangle indices that left the unit", "= vertices x vertex_bytes + bytes.attributes + 3 x triangles x index_bytes, these not where strips leave (`esc.reuse` none)";
         EmitToClipper "vertices.to_clipper" Count "vertices left homogeneous: w <= 0, or outside the sub-pixel format's band", "<= vertices";
     }
+    VertexCache {
+        VertexCacheIndices "indices" Count "indices that draws name their triangles by (unit `triangles`)", "= 3 x emit triangles (lists), or emit triangles + 2 x strips + indices.repeated + indices.restarts";
+        VertexCacheRestarts "indices.restarts" Count "of those, the greatest index, which ends a strip (`triangles.topology` strip_restart)", "= strips - batches, or 0";
+        VertexCacheRepeated "indices.repeated" Count "of those, indices that begin no triangle with an area: they turn strips, or join them", "0 in lists";
+        VertexCacheStrips "strips" Count "strips of triangles", "0 in lists";
+        VertexCacheBatches "batches" Count "draws of the device: one for each instance that is drawn (resident meshes) or each draw with triangles (streamed), and one more each time that 2-byte indices reach no further", "";
+        VertexCacheHits "hits" Count "indices whose vertex was shaded already", "hits + misses + indices.restarts = indices";
+        VertexCacheMisses "misses" Count "indices whose vertex must be shaded", "= vertex_shader invocations; = emit vertices where `triangles.cache` is unlimited";
+    }
     VertexShader {
-        VertexShaderInvocations "invocations" Count "vertices shaded; every distinct vertex of a patch once", "= emit vertices";
+        VertexShaderInvocations "invocations" Count "vertices shaded; every distinct vertex of a patch once, or as often as a cache lacks it (unit `triangles`)", "= emit vertices, or vertex_cache misses";
         VertexShaderBytesIn "bytes.in" Bytes "what the vertex shader reads", "";
         VertexShaderBytesOut "bytes.out" Bytes "what it writes", "";
     }

@@ -320,12 +320,13 @@ impl DomainCosts {
 impl Config {
     /// What `block` costs, with what is absent derived; of [`Block::Backface`], what a patch costs
     /// that the configured method tests. `None` for what is no block of the unit: the trace, the
-    /// link and memory.
+    /// link and memory; and for index fetch, which hands over as many vertices as memory does.
     #[must_use]
     pub fn costs(&self, block: Block) -> Option<BlockCosts> {
         let blocks = &self.block;
         Some(match block {
-            Block::Trace | Block::Link | Block::Memory | Block::Unit => return None,
+            Block::Trace | Block::Link | Block::Memory => return None,
+            Block::VertexCache | Block::Unit => return None,
             Block::Transform => blocks.transform.clone(),
             Block::Port => blocks.port.clone(),
             Block::Assemble => blocks.assemble.clone(),
@@ -388,11 +389,11 @@ mod tests {
         let after_memory = rtl_model::counter::DECLARATIONS
             .iter()
             .map(|declared| declared.block)
-            .filter(|&block| block > Block::Memory);
+            .filter(|&block| block > Block::Memory && block != Block::VertexCache);
         for block in after_memory {
             assert!(TIMED.contains(&block) && Config::default().costs(block).is_some());
         }
-        for block in [Block::Trace, Block::Link, Block::Memory] {
+        for block in [Block::Trace, Block::Link, Block::Memory, Block::VertexCache] {
             assert!(!TIMED.contains(&block) && Config::default().costs(block).is_none());
         }
         assert!(TIMED.is_sorted());

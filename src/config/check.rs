@@ -22,7 +22,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    fn found(key: &'static str, found: impl Display) -> Self {
+    pub(super) fn found(key: &'static str, found: impl Display) -> Self {
         let expected = keys::find(key).expect("a checked key is in the table").expected;
         Self { key, message: format!("found {found}, expected {expected}") }
     }
@@ -164,8 +164,7 @@ impl Config {
         within("vertex_shader.bytes_in_normal", self.vertex_shader.bytes_in_normal, 0, most)?;
         within("vertex_shader.bytes_out", self.vertex_shader.bytes_out, 0, most)?;
         within("assemble.cache_entries", self.assemble.cache_entries, 0, most)?;
-        within("triangles.vertex_bytes", self.triangles.vertex_bytes, 1, most)?;
-        within("triangles.bare_vertex_bytes", self.triangles.bare_vertex_bytes, 1, most)
+        self.triangles.problem()
     }
 }
 
@@ -243,7 +242,7 @@ fn guard_found(guard: u32, width: u32) -> String {
     format!("{guard} with position.width {width}")
 }
 
-fn within<T: Copy + PartialOrd + Display>(
+pub(super) fn within<T: Copy + PartialOrd + Display>(
     key: &'static str,
     value: T,
     least: T,

@@ -116,9 +116,3 @@ impl Default for VertexShader {
         Self { bytes_in: 24, bytes_in_normal: 16, bytes_out: 32, to_memory: false }
     }
 }
-
-impl Default for Triangles {
-    fn default() -> Self {
-        Self { vertex_bytes: 32, bare_vertex_bytes: 24 }
-    }
-}

@@ -6,6 +6,7 @@
 
 mod block;
 mod esc;
+mod triangles;
 
 /// A key and what is to be said of it.
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +31,9 @@ const ROUNDING: &str = "floor, nearest_up, nearest_even or nearest_away";
 
 /// All keys, in the order of the file: tables after plain keys, in the order of the data.
 pub const KEYS: &[Key] = {
-    const BEFORE: usize = PLAIN.len() + esc::KEYS.len();
-    const PARTS: [Key; BEFORE] = join(PLAIN, esc::KEYS);
+    const HOST: usize = PLAIN.len() + triangles::KEYS.len();
+    const BEFORE: usize = HOST + esc::KEYS.len();
+    const PARTS: [Key; BEFORE] = join(&join::<HOST>(PLAIN, triangles::KEYS), esc::KEYS);
     &join::<{ BEFORE + block::KEYS.len() }>(&PARTS, block::KEYS)
 };
 
@@ -268,12 +270,6 @@ const PLAIN: &[Key] = &[
         "separate or shared",
     ),
     key("memory.fifo", "entries of the FIFO before memory: commands", FIFO),
-    key("triangles.vertex_bytes", "bytes of a vertex on the link, unit triangles", "1..=65536"),
-    key(
-        "triangles.bare_vertex_bytes",
-        "the same besides its attributes, in draws that have them",
-        "1..=65536",
-    ),
 ];
 
 const fn key(path: &'static str, meaning: &'static str, expected: &'static str) -> Key {

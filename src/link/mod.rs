@@ -3,10 +3,14 @@
 //! Sizes on the wire: a command's header 8 (every command but the trace's own header and end), a
 //! matrix 64, a float 4, an index 2 or 4. A command is one transfer, cut as [`framing`] says; the
 //! next command starts a packet of its own. How long bytes hold a wire says [`wire`],
-//! and what that means for what is behind, [`schedule`].
+//! and what that means for what is behind, [`schedule`]. Where the host tessellates,
+//! [`index_stream`] has the indices of its triangles, and [`vertex_cache`] which of them ask for a
+//! vertex to be shaded.
 
 pub mod framing;
+pub mod index_stream;
 pub mod schedule;
+pub mod vertex_cache;
 pub mod wire;
 
 use crate::config::{Config, LevelScope, Link, Memory, Unit};
@@ -15,7 +19,7 @@ use framing::Framed;
 use rtl_model::counter::{Counter, Counters};
 
 /// Bytes of a command's header.
-const COMMAND: u64 = 8;
+pub const COMMAND: u64 = 8;
 /// Bytes of a matrix.
 const MATRIX: u64 = 64;
 /// Bytes of a float.
@@ -59,8 +63,8 @@ impl Transfer {
         Framed::of(self.payload(), link).total()
     }
 
-    /// The same transfer with the triangles that a tessellating host sends, indexed over the whole
-    /// draw, a vertex of so many bytes.
+    /// The same transfer with the triangles that a tessellating host sends, as lists indexed over
+    /// the whole draw, a vertex of so many bytes: what every unit is compared with.
     #[must_use]
     pub fn with_triangles(self, vertices: u64, triangles: u64, vertex_bytes: u64) -> Self {
         let index = if vertices > SHORT_INDEX_MAX { 4 } else { 2 };
@@ -69,6 +73,15 @@ impl Transfer {
 
     /// Adds the transfer to the counters.
     pub fn count(&self, link: &Link, counters: &mut Counters) {
+        self.count_payload(counters);
+        let framed = Framed::of(self.payload(), link);
+        counters.add(Counter::LinkOverhead, framed.overhead);
+        counters.add(Counter::LinkRequests, framed.request_bytes);
+        counters.add(Counter::LinkTotal, framed.total());
+    }
+
+    /// Adds the payload alone, where its command is not over yet and is framed as a whole.
+    pub fn count_payload(&self, counters: &mut Counters) {
         counters.add(Counter::LinkCommands, self.command);
         counters.add(Counter::LinkMatrices, self.matrices);
         counters.add(Counter::LinkControlPoints, self.control_points);
@@ -76,10 +89,6 @@ impl Transfer {
         counters.add(Counter::LinkFactors, self.factors);
         counters.add(Counter::LinkVertices, self.vertices);
         counters.add(Counter::LinkIndices, self.indices);
-        let framed = Framed::of(self.payload(), link);
-        counters.add(Counter::LinkOverhead, framed.overhead);
-        counters.add(Counter::LinkRequests, framed.request_bytes);
-        counters.add(Counter::LinkTotal, framed.total());
     }
 }
 

@@ -59,6 +59,14 @@ pub fn run(
                 .into(),
         ));
     }
+    if config.unit == Unit::Triangles && config.triangles.uses_memory() {
+        return Err(Error::Usage(
+            "triangles: the second implementation makes patches as they are streamed and each \
+             vertex once, expected triangles.residency streamed and triangles.cache.policy \
+             unlimited"
+                .into(),
+        ));
+    }
     let started = Instant::now();
     let mut header = Header::default();
     let commands = trace.reader()?.map(|located| {

@@ -162,7 +162,7 @@ pub fn run(
     commands: impl Iterator<Item = Result<Command>>,
     config: &Config,
 ) -> Result<Film> {
-    if !blocks(config.unit).contains(&Block::Clip) {
+    if !blocks(config).contains(&Block::Clip) {
         let unit = config.unit.name();
         return Err(Error::Usage(format!("unit {unit} culls nothing: expected one that does")));
     }

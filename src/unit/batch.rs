@@ -15,6 +15,7 @@ use super::chain::Work as Done;
 use super::clock::{Clock, Fetch};
 use super::edges::{EdgeDatabase, Held};
 use super::frame::FrameState;
+use super::host::Hosted;
 use super::pipeline::{Input, Make, Pipeline};
 use super::union::{Pass, Share, Shared, Site};
 use crate::config::Config;
@@ -82,8 +83,8 @@ pub(super) struct DrawState {
     pub(super) state: State,
     /// Takes a vertex to world space, column-major.
     pub(super) to_world: [f64; 16],
-    /// Bytes of a vertex on the link, where the host tessellates.
-    pub(super) vertex_bytes: u64,
+    /// What a host that tessellates knows of its instance.
+    pub(super) hosted: Hosted,
     /// The attributes of its corners.
     pub(super) attributes: Option<Arc<Corners>>,
     /// Rows and columns of patches, where they share edges.

@@ -150,6 +150,9 @@ pub(super) trait Flow: Copy + Default + Eq + Send + Sync + fmt::Debug + 'static 
         None
     }
 
+    /// Appends its triangles, where a host may have made them.
+    fn join(self, _out: &mut Vec<Triangle>) {}
+
     /// It completes a wave.
     fn close(&mut self, _wave: Invocations) {}
 }
@@ -169,6 +172,8 @@ pub(super) enum Token<T> {
     Parcel(Parcel, Option<Work<T>>),
     /// Host to vertex shader, where the host tessellates: so many vertices.
     Vertices(Parcel, u32),
+    /// Host to memory, where that has the vertices that the host made: read these.
+    Fetch(Parcel),
     /// Memory to assemble: a control point; a patch's last one completes it.
     Point(Option<Work<T>>),
     /// Memory to assemble: a patch of which every control point is on chip already.
@@ -179,7 +184,7 @@ pub(super) enum Token<T> {
     Strip(Strip),
     /// Stitch to emit, and whether it is its patch's first.
     Triangle(Triangle, bool),
-    /// Emit to the vertex shader.
+    /// Emit, or memory, to the vertex shader.
     Vertex,
     /// Connectivity to the domain shader and on to emit (unit `d3d11`).
     Wave(Wave),
@@ -188,10 +193,10 @@ pub(super) enum Token<T> {
 }
 
 /// The timed blocks of a unit, in the order of the data.
-pub(super) fn blocks(unit: Unit) -> &'static [Name] {
-    match unit {
+pub(super) fn blocks(config: &Config) -> &'static [Name] {
+    match config.unit {
         Unit::Hybrid | Unit::Sfarti | Unit::Moreton | Unit::Esc => {
-            &super::blocks(unit)[1..] // all but trace
+            &super::blocks(config)[1..] // all but trace
         }
         Unit::D3d11 => &[
             Name::Link,
@@ -204,6 +209,9 @@ pub(super) fn blocks(unit: Unit) -> &'static [Name] {
             Name::Domain,
             Name::Emit,
         ],
+        Unit::Triangles if config.triangles.uses_memory() => {
+            &[Name::Link, Name::Memory, Name::VertexShader]
+        }
         Unit::Triangles => &[Name::Link, Name::VertexShader],
     }
 }
@@ -228,7 +236,7 @@ fn shape(block: Name, config: &Config) -> Shape {
 
 /// The shapes of the configured unit's chain.
 pub(super) fn shapes(config: &Config) -> impl Iterator<Item = (Name, Shape)> {
-    blocks(config.unit).iter().map(|&block| (block, shape(block, config)))
+    blocks(config).iter().map(|&block| (block, shape(block, config)))
 }
 
 /// The chain of the configured unit, which must be one of those whose patches have such lists.

@@ -2,10 +2,10 @@
 //! configuration names times it.
 
 use super::chain::{self, Flow, Meshed, Pattern, Token, Work};
+use super::host::{Delivery, Host, Hosted};
 use super::timeline::Recorder;
 use crate::config::{Config, Engine, TransferMode};
 use crate::error::Result;
-use crate::link::Transfer;
 use crate::link::framing::Pieces;
 use crate::link::schedule::Parcel;
 use crate::report::timeline::Wanted;
@@ -26,8 +26,8 @@ pub(super) struct Clock<T: Flow> {
     engine: Running<T>,
     /// The command that is being sent.
     pieces: Pieces,
-    /// Vertices and triangles of the draw that is being sent, where the host tessellates.
-    draw: [u64; 2],
+    /// Where the host tessellates.
+    host: Host<T>,
     sent: Sent,
 }
 
@@ -50,13 +50,10 @@ impl Sent {
     pub(super) fn check(&self, config: &Config, counters: &Counters) {
         let link = counters.get(Counter::LinkTotal);
         assert_eq!(self.link_bytes, link, "bytes timed on the link, and bytes counted");
-        if !config.unit.host_tessellates() {
-            // What shaders move themselves is timed with them.
-            let bursts =
-                counters.get(Counter::MemoryBursts) - counters.get(Counter::MemoryPatchBursts);
-            let memory = bursts * u64::from(config.memory.burst);
-            assert_eq!(self.memory_bytes, memory, "bytes timed in memory, and bytes counted");
-        }
+        // What shaders move themselves is timed with them.
+        let bursts = counters.get(Counter::MemoryBursts) - counters.get(Counter::MemoryPatchBursts);
+        let memory = bursts * u64::from(config.memory.burst);
+        assert_eq!(self.memory_bytes, memory, "bytes timed in memory, and bytes counted");
     }
 }
 
@@ -281,14 +278,15 @@ impl<T: Flow> Clock<T> {
             config: config.clone(),
             engine,
             pieces: Pieces::new(&config.link),
-            draw: [0; 2],
+            host: Host::new(config),
             sent: Sent::default(),
         }
     }
 
     fn feed(&mut self, token: Token<T>) {
         self.sent.tokens += 1;
-        let (Token::Parcel(parcel, _) | Token::Vertices(parcel, _)) = token else {
+        let (Token::Parcel(parcel, _) | Token::Vertices(parcel, _) | Token::Fetch(parcel)) = token
+        else {
             unreachable!("the host sends parcels");
         };
         self.sent.link_bytes += parcel.down + u64::from(parcel.up);
@@ -305,9 +303,23 @@ impl<T: Flow> Clock<T> {
         self.end_draw();
         self.pieces = Pieces::new(&self.config.link);
         if self.config.unit.host_tessellates() {
-            self.stream(payload, 0);
-        } else {
-            self.upload(payload, written);
+            self.host.command(payload);
+        }
+        self.deliver(Delivery { payload, written, read: 0 }, 0);
+    }
+
+    /// Bytes of a command, of which `vertices` come out where none of them go to memory.
+    fn deliver(&mut self, delivery: Delivery, vertices: u64) {
+        let Delivery { payload, written, read } = delivery;
+        if self.config.unit.host_tessellates() && !self.config.triangles.uses_memory() {
+            return self.stream(payload, vertices);
+        }
+        self.upload(payload, written);
+        let mut left = read;
+        while left > 0 {
+            let read = left.min(PARCEL_MAX);
+            left -= read;
+            self.feed(Token::Fetch(Parcel { read: read as u32, ..Parcel::default() }));
         }
     }
 
@@ -325,17 +337,18 @@ impl<T: Flow> Clock<T> {
     }
 
     /// A patch of the command that was sent last, and what became of it: fetched by the unit, or
-    /// sent as vertices of so many bytes.
-    pub(super) fn patch(&mut self, fetch: Fetch, work: Work<T>, vertex_bytes: u64) {
+    /// tessellated by the host.
+    pub(super) fn patch(&mut self, fetch: Fetch, work: Work<T>, hosted: Hosted) {
         let Fetch { points, read, patch, measured } = fetch;
         if let Some(recorder) = self.engine.recorder() {
             recorder.begin_patch(patch);
         }
         if self.config.unit.host_tessellates() {
-            let [vertices, triangles] = work.made();
-            self.draw[0] += vertices;
-            self.draw[1] += triangles;
-            self.stream(vertices * vertex_bytes, vertices);
+            let delivery = self.host.patch(&work, hosted);
+            self.deliver(delivery, work.made()[0]);
+            let fetches = std::mem::take(&mut self.host.fetches);
+            fetches.iter().for_each(|&parcel| self.feed(Token::Fetch(parcel)));
+            self.host.fetches = fetches;
         } else {
             let parcel = Parcel { points, read, ..Parcel::default() };
             self.feed(Token::Parcel(parcel, Some(work)));
@@ -345,12 +358,12 @@ impl<T: Flow> Clock<T> {
         }
     }
 
-    /// Where the host tessellates, a draw's indices follow its vertices: only then is it known how
-    /// wide they are.
+    /// Where the host tessellates, a draw's indices follow its vertices.
     fn end_draw(&mut self) {
-        let [vertices, triangles] = std::mem::take(&mut self.draw);
-        let all = Transfer::default().with_triangles(vertices, triangles, 0);
-        self.stream(all.indices, 0);
+        if self.config.unit.host_tessellates() {
+            let delivery = self.host.end_draw();
+            self.deliver(delivery, 0);
+        }
     }
 
     /// The next `payload` bytes of a command, of which `vertices` come out.
@@ -383,8 +396,9 @@ impl<T: Flow> Clock<T> {
     }
 
     /// The frame's last patch has been sent. Returns what was.
-    pub(super) fn end_frame(&mut self) -> Sent {
+    pub(super) fn end_frame(&mut self, counters: &mut Counters) -> Sent {
         self.end_draw();
+        counters.merge(&self.host.take_counters());
         self.engine.end_frame();
         std::mem::take(&mut self.sent)
     }

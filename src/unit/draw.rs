@@ -8,12 +8,14 @@ use super::batch::DrawState;
 use super::d3d11;
 use super::esc;
 use super::fetch::{Brought, Instance, Source};
+use super::host::Hosted;
 use super::pipeline::Make;
+use super::resident::{self, Mesh};
 use super::run::Run;
 use super::union::{Pass, Shared, Site, Unions};
 use crate::config::{Config, Union};
 use crate::error::{Error, Result};
-use crate::link;
+use crate::link::{self, Transfer};
 use crate::shader::control_point;
 use crate::trace::command::{Draw, Primitive};
 use glam::Mat4;
@@ -60,7 +62,8 @@ impl<M: Make> Run<'_, M> {
         let attributes = draw.attributes.map(|id| self.attributes.get(&id).expect(known).clone());
         let indexed = link::is_indexed(self.config.unit, draw);
         let source = Source { draw, points, attributes, indexed };
-        self.begin_draw(&source)?;
+        let levels = self.resident_levels(&source)?;
+        self.begin_draw(&source, &levels)?;
         let surfaces = self.config.unit.has_surface_primitives();
         let state = DrawState {
             number: self.draws.len() as u32 - 1,
@@ -68,7 +71,7 @@ impl<M: Make> Run<'_, M> {
             reversed: draw.reversed,
             state: super::state::under(&self.state, self.config),
             to_world: frame.to_world,
-            vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
+            hosted: self.hosted(&source),
             attributes: source.attributes.clone(),
             edges: (surfaces && draw.primitive.shares_edges()).then(|| draw.primitive.size()),
             shared: None,
@@ -80,8 +83,21 @@ impl<M: Make> Run<'_, M> {
         let bounds = esc::bounds(draw, &source.points.source, self.config)?;
         // The spans of the instance before, while the batch holds all of it.
         let mut whole = None;
-        for model in &draw.models {
+        for (number, model) in draw.models.iter().enumerate() {
             let mut state = state.clone();
+            self.instances += 1;
+            state.hosted.instance = self.instances;
+            match levels.get(number) {
+                None => {}
+                Some(None) => {
+                    self.patches += draw.primitive.patches(); // out of sight, all of them
+                    continue;
+                }
+                Some(&Some((level, mesh))) => {
+                    state.state = resident::fixed(level);
+                    state.hosted.index_bytes = mesh.index_bytes;
+                }
+            }
             if self.config.unit.in_object_space() {
                 state.to_world = model.map(f64::from);
             }
@@ -107,6 +123,43 @@ impl<M: Make> Run<'_, M> {
             }
         }
         Ok(())
+    }
+
+    /// Where meshes are resident: the level of each instance, and its mesh, which is in device
+    /// memory from now on; `None` for one that is not drawn. Empty where they are not.
+    fn resident_levels(&mut self, source: &Source<'_>) -> Result<Vec<Option<(u32, Mesh)>>> {
+        let config = self.config;
+        if config.culls_patches() {
+            return Ok(Vec::new());
+        }
+        let frame = self.frame.expect("the reader refuses a draw before any frame");
+        let state = super::state::under(&self.state, config);
+        let bytes = vertex_bytes(source.attributes.as_deref(), config);
+        let (mut levels, mut uploads) = (Vec::new(), Vec::new());
+        for model in &source.draw.models {
+            let model = Mat4::from_cols_array(model);
+            let matrix = control_point::concatenate(&frame.clip_from_world, &model);
+            let level = resident::level(source, &matrix, &state, &frame, config)?;
+            levels.push(level.map(|level| {
+                (level, self.resident.mesh(source, level, (config, bytes), &mut uploads))
+            }));
+        }
+        for mesh in uploads {
+            let uploaded = mesh.upload((config, bytes), &mut self.counters);
+            self.send(uploaded.transfer.payload(), uploaded.written)?;
+        }
+        self.counters.add(Counter::MemoryMeshesPeak, self.resident.bytes());
+        Ok(levels)
+    }
+
+    /// What a host that tessellates knows of a draw.
+    fn hosted(&self, source: &Source<'_>) -> Hosted {
+        Hosted {
+            instance: 0,
+            vertex_bytes: vertex_bytes(source.attributes.as_deref(), self.config),
+            components: source.components(),
+            index_bytes: 0,
+        }
     }
 
     /// Whether the patches of this primitive get unified lists.
@@ -136,7 +189,7 @@ impl<M: Make> Run<'_, M> {
     }
 
     /// What a draw counts whatever becomes of its patches.
-    fn begin_draw(&mut self, source: &Source<'_>) -> Result<()> {
+    fn begin_draw(&mut self, source: &Source<'_>, levels: &[Option<(u32, Mesh)>]) -> Result<()> {
         let Source { draw, attributes, .. } = source;
         let primitive = draw.primitive;
         let patches = primitive.patches() * draw.models.len() as u64;
@@ -167,7 +220,9 @@ impl<M: Make> Run<'_, M> {
         }
         let transfer = link::host_draw(draw);
         self.draws.push((transfer, vertex_bytes(attributes.as_deref(), self.config)));
-        self.send_as_host(transfer)
+        let batches = resident::batches(levels);
+        let headers = batches.saturating_sub(1) * link::COMMAND;
+        self.send_as_host(Transfer { command: transfer.command + headers, ..transfer })
     }
 
     /// One instance, in blocks that fit a batch: whole rows of patches, or parts of a row. Returns

@@ -168,6 +168,9 @@ impl Instance {
         counters.add(Counter::AssembleReceived, received);
         counters.add(Counter::AssembleReused, 16 * patches - received);
         counters.add(Counter::AssembleWhole, whole);
+        if config.unit.host_tessellates() {
+            return; // points and attributes stay with the host
+        }
         if points.resident {
             counters.add(Counter::MemoryReadControlPoints, self.points.bytes());
             let uncached = if *indexed { 16 * patches } else { received };

@@ -5,10 +5,11 @@
 //! patches get their points, `batch` collects patches and spreads them over the threads, `pipeline`
 //! takes one patch through the blocks: through lists of parameters (`surface`), of which `hybrid`,
 //! `sfarti` and `moreton` each have their own, or through the shaders of `d3d11` or `esc`. `union`
-//! holds the lists that patches of a primitive share, `edges` what it keeps of their edges; `wave`
-//! gathers patches that a surface shader makes side by side; `chain` and `clock` put it all on the
-//! clock, of which `timeline` records what happened when; `tokens` and `arithmetic` say from a
-//! frame's counters what flowed and what it took.
+//! holds the lists that patches of a primitive share, `edges` what it keeps of their edges; `host`
+//! says what a host that tessellates sends and a device reads, `resident` which meshes are there;
+//! `wave` gathers patches that a surface shader makes side by side; `chain` and `clock` put it all
+//! on the clock, of which `timeline` records what happened when; `tokens` and `arithmetic` say from
+//! a frame's counters what flowed and what it took.
 
 pub mod arithmetic;
 mod attributes;
@@ -21,10 +22,12 @@ mod edges;
 mod esc;
 mod fetch;
 mod frame;
+mod host;
 mod hybrid;
 mod moreton;
 pub mod pattern;
 mod pipeline;
+mod resident;
 mod run;
 mod sfarti;
 mod state;
@@ -169,10 +172,10 @@ fn recorded<M: Make>(
     run.finish_recording()
 }
 
-/// The blocks of a unit, in the order of the data.
+/// The blocks of the configured unit, in the order of the data.
 #[must_use]
-pub fn blocks(unit: Unit) -> &'static [Block] {
-    match unit {
+pub fn blocks(config: &Config) -> &'static [Block] {
+    match config.unit {
         Unit::Hybrid | Unit::Sfarti => &[
             Block::Trace,
             Block::Link,
@@ -230,7 +233,17 @@ pub fn blocks(unit: Unit) -> &'static [Block] {
             Block::Surface,
             Block::Emit,
         ],
-        Unit::Triangles => &[Block::Trace, Block::Link, Block::Emit, Block::VertexShader],
+        Unit::Triangles if config.triangles.uses_memory() => &[
+            Block::Trace,
+            Block::Link,
+            Block::Memory,
+            Block::Emit,
+            Block::VertexCache,
+            Block::VertexShader,
+        ],
+        Unit::Triangles => {
+            &[Block::Trace, Block::Link, Block::Emit, Block::VertexCache, Block::VertexShader]
+        }
     }
 }
 
@@ -244,7 +257,7 @@ pub fn chain(config: &Config) -> Vec<Stage> {
 /// tokens.
 fn work(chain: &[Stage], counters: &Counters, sent: u64, config: &Config) -> Vec<Work> {
     let of = |stage: &Stage| {
-        let [tokens_in, tokens_out] = tokens::of(config.unit, stage.block, counters, sent);
+        let [tokens_in, tokens_out] = tokens::of(config, stage.block, counters, sent);
         let ops = arithmetic::of(stage.block, counters, config);
         Work { tokens_in, tokens_out, ops }
     };
@@ -257,10 +270,12 @@ mod tests {
 
     #[test]
     fn the_timed_chain_is_of_the_units_blocks_in_their_order() {
-        for unit in Unit::ALL {
-            let config = Config { unit, ..Config::default() };
+        let mut configs = Unit::ALL.map(|unit| Config { unit, ..Config::default() }).to_vec();
+        configs.push(Config { unit: Unit::Triangles, ..Config::default() });
+        configs.last_mut().unwrap().triangles.residency = crate::config::Residency::Static;
+        for config in configs {
             let chain: Vec<_> = chain(&config).iter().map(|stage| stage.block).collect();
-            let blocks = blocks(unit).iter().copied().filter(|block| chain.contains(block));
+            let blocks = blocks(&config).iter().copied().filter(|block| chain.contains(block));
             assert_eq!(blocks.collect::<Vec<_>>(), chain);
             assert!(chain.len() >= 2);
         }

@@ -157,7 +157,7 @@ impl<'a, M: Make> Pipeline<'a, M> {
     pub(super) fn accept(&mut self, input: &Input<'_>) -> bool {
         self.screen.clear();
         self.work = Work::clipped(self.make.enter(input));
-        if M::CULLS && !self.keeps(input.patch) {
+        if M::CULLS && self.config.culls_patches() && !self.keeps(input.patch) {
             self.make.cull(&mut self.counters);
             return false;
         }
@@ -247,7 +247,9 @@ impl<'a, M: Make> Pipeline<'a, M> {
         counters.add(Counter::EmitTriangles, triangles);
         counters.add(Counter::EmitAttributeBytes, attributes);
         counters.add(Counter::EmitBytes, bytes);
-        if !self.config.unit.has_vertex_shader() {
+        let unit = self.config.unit;
+        // Which vertices are shaded depends on the patches before, where the host tessellates.
+        if !unit.has_vertex_shader() || unit.host_tessellates() {
             return;
         }
         let normal = match self.config.evaluate.normals {

@@ -5,6 +5,7 @@ use super::batch::{self, Batch, Tally};
 use super::clock::{Clock, Tokens};
 use super::frame::FrameState;
 use super::pipeline::Make;
+use super::resident::Resident;
 use super::timeline::Recorder;
 use super::{blocks, chain, work};
 use crate::config::{Config, Unit};
@@ -44,6 +45,9 @@ pub(super) struct Run<'a, M: Make> {
     /// Counters and work of the frames that have ended; their times come at the end of the run.
     frames: Vec<(Counters, Vec<Work>)>,
     host_link_bytes: u64,
+    pub(super) resident: Resident,
+    /// Instances of draws so far.
+    pub(super) instances: u64,
 }
 
 impl<'a, M: Make> Run<'a, M> {
@@ -65,6 +69,8 @@ impl<'a, M: Make> Run<'a, M> {
             chain: chain(config),
             frames: Vec::new(),
             host_link_bytes: 0,
+            resident: Resident::default(),
+            instances: 0,
         }
     }
 
@@ -97,6 +103,7 @@ impl<'a, M: Make> Run<'a, M> {
             Command::Header(_) | Command::End => Ok(()),
             Command::Frame(frame) => self.begin_frame(command, frame),
             Command::Points(points) => {
+                self.resident.replace_points(points.id);
                 self.points.insert(points.id, points.clone());
                 Ok(())
             }
@@ -105,6 +112,7 @@ impl<'a, M: Make> Run<'a, M> {
                 Ok(())
             }
             Command::Attributes(attributes) => {
+                self.resident.replace_attributes(attributes.id);
                 let corners = Corners::new(attributes, self.config);
                 self.counters.add(Counter::PortAttributesSaturated, corners.saturated);
                 self.attributes.insert(attributes.id, Arc::new(corners));
@@ -115,7 +123,7 @@ impl<'a, M: Make> Run<'a, M> {
     }
 
     /// A command crosses the link, behind the patches so far.
-    fn send(&mut self, payload: u64, written: u64) -> Result<()> {
+    pub(super) fn send(&mut self, payload: u64, written: u64) -> Result<()> {
         if self.batch.is_empty() {
             self.clock.command(payload, written);
         } else if !self.batch.command(payload, written) {
@@ -139,7 +147,7 @@ impl<'a, M: Make> Run<'a, M> {
         let frames = frames.collect();
         let report = Report {
             config: self.config.effective(),
-            blocks: blocks(self.config.unit),
+            blocks: blocks(self.config),
             chain: self.chain,
             frames,
             occupancy,
@@ -174,6 +182,7 @@ impl<'a, M: Make> Run<'a, M> {
     /// Where the host tessellates: a command, which its vertices follow.
     pub(super) fn send_as_host(&mut self, transfer: Transfer) -> Result<()> {
         if self.config.unit.host_tessellates() {
+            transfer.count_payload(&mut self.counters);
             return self.send(transfer.payload(), 0);
         }
         Ok(())
@@ -191,8 +200,8 @@ impl<'a, M: Make> Run<'a, M> {
             let tally = tallies.next_if(|t| t.draw as usize == number).unwrap_or_default();
             self.host(transfer.with_triangles(tally.vertices, tally.triangles, vertex_bytes));
         }
-        let counters = std::mem::take(&mut self.counters);
-        let sent = self.clock.end_frame();
+        let mut counters = std::mem::take(&mut self.counters);
+        let sent = self.clock.end_frame(&mut counters);
         self.clock.check()?;
         sent.check(self.config, &counters);
         let work = work(&self.chain, &counters, sent.tokens, self.config);
@@ -200,13 +209,10 @@ impl<'a, M: Make> Run<'a, M> {
         Ok(())
     }
 
-    /// What crosses the link where the host tessellates: frames and draws, these with their
-    /// triangles. Points and tessellation state stay with the host.
+    /// What would cross the link if the host streamed its triangles: frames and draws, these with
+    /// their triangles. Points and tessellation state stay with the host.
     fn host(&mut self, transfer: Transfer) {
         self.host_link_bytes += transfer.total(&self.config.link);
-        if self.config.unit.host_tessellates() {
-            transfer.count(&self.config.link, &mut self.counters);
-        }
     }
 
     pub(super) fn flush(&mut self) -> Result<()> {

@@ -9,16 +9,16 @@
 //!   stitch ─ triangles ─► emit ─ vertices ─► vertex shader
 //! ```
 
-use crate::config::Unit;
+use crate::config::{Config, Unit};
 use rtl_model::counter::{Block, Counter as C, Counters};
 
 /// Tokens that `block` accepts and emits in a frame with these counters, in which the host sent so
 /// many.
-pub(super) fn of(unit: Unit, block: Block, counters: &Counters, sent: u64) -> [u64; 2] {
+pub(super) fn of(config: &Config, block: Block, counters: &Counters, sent: u64) -> [u64; 2] {
     let get = |counter| counters.get(counter);
-    match unit {
+    match config.unit {
         Unit::Hybrid | Unit::Sfarti | Unit::Moreton => patches(block, get, sent),
-        Unit::Triangles => triangles(block, get, sent),
+        Unit::Triangles => triangles(config, block, get, sent),
         Unit::D3d11 => shaders(block, get, sent),
         Unit::Esc => surfaces(block, get, sent),
     }
@@ -75,11 +75,13 @@ fn surfaces(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
     }
 }
 
-/// Where the host tessellates: from the link on a token a vertex.
-fn triangles(block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
+/// Where the host tessellates: a token a vertex from the link on, or from memory on.
+fn triangles(config: &Config, block: Block, get: impl Fn(C) -> u64, sent: u64) -> [u64; 2] {
     let vertices = get(C::VertexShaderInvocations);
     match block {
+        Block::Link if config.triangles.uses_memory() => [sent; 2],
         Block::Link => [sent, vertices],
+        Block::Memory => [sent, vertices],
         Block::VertexShader => [vertices; 2],
         _ => [0; 2], // not of the chain
     }

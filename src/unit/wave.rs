@@ -18,13 +18,14 @@
 
 use super::chain::{Flow, Invocations, Work};
 use super::clock::Fetch;
+use super::host::Hosted;
 use crate::config::Config;
 use rtl_model::counter::{Counter, Counters};
 use rtl_model::esc::Phase;
 
-/// A patch that waits for its wave to be complete: what brings it, what became of it, and its
-/// bytes on the link where the host tessellates.
-pub(super) type Waiting<T> = (Fetch, Work<T>, u64);
+/// A patch that waits for its wave to be complete: what brings it, what became of it, and what the
+/// host knows of it where that tessellates.
+pub(super) type Waiting<T> = (Fetch, Work<T>, Hosted);
 
 /// Instructions of each part of the program, and cycles of one.
 #[derive(Clone, Copy, Debug)]
@@ -181,11 +182,11 @@ mod tests {
             lists: Meshed { lane, ..Meshed::default() },
             ..Work::clipped(Meshed::default())
         };
-        (Fetch::default(), work, 0)
+        (Fetch::default(), work, Hosted::default())
     }
 
     fn culled() -> Waiting<Meshed> {
-        (Fetch::default(), Work::clipped(Meshed::default()), 0)
+        (Fetch::default(), Work::clipped(Meshed::default()), Hosted::default())
     }
 
     /// What the patches are sent as: the vertices of each, and its wave's cycles.

@@ -22,11 +22,19 @@ pub const NOT_COMPARED: &[(&str, &str, &str)] = &[
     ("surface", "lane_cycles", WAVE),
     ("surface", "lane_cycles.used", WAVE),
     ("surface", "lane_cycles.idle", WAVE),
+    ("vertex_cache", "indices", HOST),
+    ("vertex_cache", "indices.restarts", HOST),
+    ("vertex_cache", "indices.repeated", HOST),
+    ("vertex_cache", "strips", HOST),
+    ("vertex_cache", "batches", HOST),
+    ("vertex_cache", "hits", HOST),
+    ("vertex_cache", "misses", HOST),
 ];
 
 const COMMAND: &str = "says how its points were sent, of which nothing is left behind the port";
 const UNION: &str = "of patches that share lists (level.union), for which there are no kernels";
 const PRIMITIVE: &str = "of a primitive's edges: a patch behind the port is a patch by itself";
+const HOST: &str = "says how the host indexes what it made, and what a device fetches of that";
 const WAVE: &str = "of waves and of time, which come of the order of patches";
 
 /// Whether a counter is one that both have.

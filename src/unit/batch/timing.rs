@@ -46,9 +46,10 @@ impl<'a, T: Flow> Timing<'a, T> {
                 self.held.entries = self.held.entries.max(held.entries);
             }
             let fetch = Fetch { patch: patch.id, measured: draw.measures(), ..patch.fetch };
-            let waiting = (fetch, work, draw.vertex_bytes);
+            let waiting = (fetch, work, draw.hosted);
             let clock = &mut *self.clock;
-            self.waves.accept(draw.number, waiting, &mut |(f, w, bytes)| clock.patch(f, w, bytes));
+            self.waves
+                .accept(draw.number, waiting, &mut |(f, w, hosted)| clock.patch(f, w, hosted));
             self.patches += 1;
         }
     }
@@ -56,7 +57,7 @@ impl<'a, T: Flow> Timing<'a, T> {
     /// No patch follows that the last wave could take in.
     fn complete(&mut self) {
         let clock = &mut *self.clock;
-        self.waves.finish(&mut |(fetch, work, bytes)| clock.patch(fetch, work, bytes));
+        self.waves.finish(&mut |(fetch, work, hosted)| clock.patch(fetch, work, hosted));
     }
 
     /// Nothing follows.

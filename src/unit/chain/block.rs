@@ -92,7 +92,9 @@ impl Link {
 impl<T: Flow> Step<T> for Link {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
         match *token {
-            Token::Parcel(parcel, _) => one(token, self.0.accept(&parcel), out),
+            Token::Parcel(parcel, _) | Token::Fetch(parcel) => {
+                one(token, self.0.accept(&parcel), out)
+            }
             Token::Vertices(parcel, count) => {
                 let cost = self.0.accept(&parcel);
                 let arrived = |k: u64| (k * cost.latency).div_ceil(count.into());
@@ -104,7 +106,7 @@ impl<T: Flow> Step<T> for Link {
     }
 }
 
-/// Device memory, which hands on control points.
+/// Device memory, which hands on control points, or vertices that the host made.
 #[derive(Clone, Debug)]
 pub(in crate::unit) struct Memory(MemorySchedule);
 
@@ -116,7 +118,16 @@ impl Memory {
 
 impl<T: Flow> Step<T> for Memory {
     fn accept(&mut self, token: &Token<T>, out: &mut impl Emit<Token<T>>) -> Cost {
-        let Token::Parcel(parcel, work) = *token else { misled(token) };
+        let (parcel, work) = match *token {
+            Token::Parcel(parcel, work) => (parcel, work),
+            Token::Fetch(parcel) => {
+                let vertices = self.0.accept(&parcel);
+                let count = u64::from(parcel.points);
+                (0..count).for_each(|k| out.emit(Token::Vertex, vertices.offset(k)));
+                return vertices.cost();
+            }
+            _ => misled(token),
+        };
         let points = self.0.accept(&parcel);
         let count = u64::from(parcel.points);
         for k in 0..count {
@@ -129,7 +140,7 @@ impl<T: Flow> Step<T> for Memory {
     }
 
     fn port(&self, token: &Token<T>) -> Option<u64> {
-        let Token::Parcel(parcel, _) = token else { misled(token) };
+        let (Token::Parcel(parcel, _) | Token::Fetch(parcel)) = token else { misled(token) };
         self.0.port(parcel)
     }
 }

@@ -59,6 +59,10 @@ impl<T: Topology + 'static> Flow for T {
         [self.vertices() as u64, self.triangles() as u64]
     }
 
+    fn join(self, out: &mut Vec<Triangle>) {
+        stitch::accept(self, out);
+    }
+
     fn edges(&self) -> [u64; 4] {
         [0, 1, 2, 3].map(|edge| self.edge(edge) as u64 + 1)
     }
