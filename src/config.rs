@@ -163,6 +163,8 @@ pub struct Config {
     pub backface: Backface,
     /// The fixed-function tessellator (unit `d3d11`).
     pub tessellator: Tessellator,
+    /// Parameters from levels.
+    pub place: Place,
     /// Points of the surface.
     pub evaluate: Evaluate,
     /// The domain shader (unit `d3d11`).
@@ -279,6 +281,14 @@ pub struct Clip {
 pub struct Backface {
     /// The test.
     pub method: BackfaceMethod,
+}
+
+/// Parameters from levels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Place {
+    /// Fraction bits of a level's reciprocal, 8..=32 (units with fractional levels).
+    pub reciprocal_bits: u32,
 }
 
 /// Points of the surface.

@@ -118,7 +118,7 @@ fn tessellate<'a>(
     if events.near > 0 {
         return None;
     }
-    let mut placement = Placement::default();
+    let mut placement = Placement::of_reciprocal(config.place.reciprocal_bits);
     placement.set(&levels);
     let settings = Settings {
         position: view.position,
@@ -131,7 +131,7 @@ fn tessellate<'a>(
     Evaluate::new(settings).accept(patch, &placement, &mut vertices);
     triangles.clear();
     stitch::accept(placement.segments(), triangles);
-    let placed = place(&levels);
+    let placed = place(&levels, config.place.reciprocal_bits);
     let parameters = placed.sites().iter().map(|site| [site.u.run, site.v.run]).collect();
     let pixel = |v: &Vertex| screen(v.position.map(|c| c as f64), view);
     Some(Case {

@@ -39,8 +39,13 @@ mod with_a_device {
     /// Formats: from the least that traces stand to the widest.
     const FORMATS: [&[&str]; 5] = [
         &["position.width=32"],
-        &["position.width=16", "evaluate.rounding=floor"],
-        &["position.width=24", "evaluate.scheme=mixed", "evaluate.rounding=nearest_up"],
+        &["position.width=16", "evaluate.rounding=floor", "place.reciprocal_bits=12"],
+        &[
+            "position.width=24",
+            "evaluate.scheme=mixed",
+            "evaluate.rounding=nearest_up",
+            "place.reciprocal_bits=17",
+        ],
         &["position.width=40", "evaluate.guard=12", "backface.method=net_facets"],
         &["position.width=48", "evaluate.scheme=de_casteljau", "evaluate.rounding=nearest_away"],
     ];

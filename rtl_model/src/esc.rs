@@ -53,7 +53,7 @@ pub use pattern::{
     COARSE_EDGES, COARSE_TRIANGLES, CoarseEdge, CoarseTriangle, Corner, Place, fraction, slot,
     uniform,
 };
-pub use power::NET_BITS;
+pub use power::{NET_BITS, PowerBasis};
 pub use section::Output;
 pub use strip::{Slots, Strip};
 pub use surface::{Boundary, ControlMesh, Input, Reuse, Settings, Surface, Threshold};

@@ -12,9 +12,10 @@
 //!   5           o────o────o────┬────o────o────o  0 1/5 2/5 1/2 3/5 4/5 1: 2 ceil(level/2)
 //! ```
 //!
-//! The one division of a level is R = floor(2^48 / level) in U0.32; it serves the parameters,
-//! rounded half up to U1.16, and the step of the forward differences, so that both agree and no
-//! half-run ever passes the centre.
+//! The one division of a level is R = floor(2^(16 + n) / level) in U0.n, n = 32 unless configured
+//! otherwise; it serves the parameters, rounded half up to U1.16, and the step of the forward
+//! differences, so that both agree and no half-run ever passes the centre. R is kept in 32 fraction
+//! bits whatever n is, the lower ones 0.
 
 mod dyadic;
 
@@ -24,6 +25,12 @@ pub use dyadic::{DyadicList, DyadicPlacement};
 
 /// Most entries of a list: level 128.
 const ENTRIES_MAX: usize = 129;
+
+/// Fraction bits of a reciprocal unless configured otherwise, and at most.
+pub const RECIPROCAL_BITS: u32 = 32;
+
+/// Fraction bits of a reciprocal at least: 1/128 is more than nothing.
+pub const RECIPROCAL_BITS_MIN: u32 = 8;
 
 /// The parameters along one direction.
 pub trait Parameters: Clone + Default {
@@ -42,6 +49,7 @@ pub trait Parameters: Clone + Default {
 pub struct List {
     level: Level,
     reciprocal: u64,
+    reciprocal_bits: u32,
     segments: usize,
     parameters: [u32; ENTRIES_MAX],
 }
@@ -51,6 +59,7 @@ impl Default for List {
         let mut list = Self {
             level: Level::MIN,
             reciprocal: 1 << 32,
+            reciprocal_bits: RECIPROCAL_BITS,
             segments: 0,
             parameters: [0; ENTRIES_MAX],
         };
@@ -72,7 +81,9 @@ impl List {
     pub fn set(&mut self, level: Level) {
         if level != self.level {
             self.level = level;
-            self.reciprocal = (1 << 48) / u64::from(level.fx16());
+            // A floor's floor: the same as a division to so many bits.
+            let cut = RECIPROCAL_BITS - self.reciprocal_bits;
+            self.reciprocal = ((1 << 48) / u64::from(level.fx16())) >> cut << cut;
             self.fill();
         }
     }
@@ -83,7 +94,7 @@ impl List {
         self.level
     }
 
-    /// 1 / level truncated to 32 fraction bits; 2^32 for level 1.
+    /// 1 / level with 32 fraction bits, truncated to those that it has; 2^32 for level 1.
     #[must_use]
     pub fn reciprocal(&self) -> u64 {
         self.reciprocal
@@ -154,6 +165,18 @@ pub struct Placement<L = List> {
 }
 
 impl Placement {
+    /// A placement whose reciprocals have so many fraction bits.
+    ///
+    /// # Panics
+    /// When these are not [`RECIPROCAL_BITS_MIN`] to [`RECIPROCAL_BITS`].
+    #[must_use]
+    pub fn of_reciprocal(bits: u32) -> Self {
+        let fits = (RECIPROCAL_BITS_MIN..=RECIPROCAL_BITS).contains(&bits);
+        assert!(fits, "a reciprocal of {bits} fraction bits is outside 8..=32");
+        let list = List { reciprocal_bits: bits, ..List::default() };
+        Self { edges: [0; 4].map(|_| list.clone()), u: list.clone(), v: list, reciprocals: 0 }
+    }
+
     /// Places the vertices of a patch with these levels.
     ///
     /// The interior's levels are raised to min(m, 2), m the greatest level of all: otherwise a

@@ -13,6 +13,7 @@ mod counters;
 mod import;
 mod info;
 mod pattern;
+mod precision;
 mod print;
 mod progress;
 #[cfg(feature = "gpu")]
@@ -56,6 +57,7 @@ enum Command {
     Import(import::Args),
     Pattern(pattern::Args),
     Study(study::Args),
+    Precision(precision::Args),
     Sweep(sweep::Args),
     #[cfg(feature = "gpu")]
     Render(render::Args),
@@ -96,6 +98,7 @@ impl Cli {
             Command::Import(args) => import::run(args),
             Command::Pattern(args) => pattern::run(args),
             Command::Study(args) => study::run(args, self.quiet),
+            Command::Precision(args) => precision::run(args, self.quiet),
             Command::Sweep(args) => sweep::run(args, self.quiet),
             #[cfg(feature = "gpu")]
             Command::Render(args) => render::run(args),

@@ -52,3 +52,30 @@ impl Drop for Progress {
         self.bar.finish_and_clear();
     }
 }
+
+/// A bar that says how many of so many steps are done. Gone when it is dropped.
+pub(crate) struct Steps(ProgressBar);
+
+impl Steps {
+    /// Of something that has a name.
+    pub(crate) fn new(quiet: bool, what: &'static str, length: u64) -> Self {
+        let target =
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(Some(length), target);
+        let style = ProgressStyle::with_template("{elapsed} {wide_bar} {pos} of {len} {msg}");
+        bar.set_style(style.expect("the template is well formed"));
+        bar.set_message(what);
+        Self(bar)
+    }
+
+    /// One more is done.
+    pub(crate) fn step(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Steps {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -7,6 +7,7 @@ use super::d3d11::{CANDIDATES_MAX, WIDTH_MAX as WAVE_MAX};
 use super::link::BANDWIDTH_MAX;
 use super::{Attributes, Config, Criterion, Esc, LevelPolicy, LevelScope, WIDTH_MAX, keys};
 use crate::error::{Error, Result};
+use rtl_model::place::{RECIPROCAL_BITS, RECIPROCAL_BITS_MIN};
 use std::fmt::Display;
 
 /// Most tokens in flight in all lanes of a block: what is held for them stays below 32 MB.
@@ -67,6 +68,8 @@ impl Config {
         if guard < 1 || width.saturating_add(guard).saturating_add(3) > 63 {
             return Err(Problem::found("evaluate.guard", guard_found(guard, width)));
         }
+        let bits = self.place.reciprocal_bits;
+        within("place.reciprocal_bits", bits, RECIPROCAL_BITS_MIN, RECIPROCAL_BITS)?;
         let Attributes { width, fraction, .. } = self.attributes;
         within("attributes.width", width, 8, 46)?;
         if fraction >= width {
@@ -299,6 +302,8 @@ mod tests {
         refused("domain.bytes_out", |c| c.domain.bytes_out = 65537);
         refused("block.domain.interval", |c| c.block.domain.interval = Some(0));
         refused("emit.subpixel_bits", |c| c.emit.subpixel_bits = 13);
+        refused("place.reciprocal_bits", |c| c.place.reciprocal_bits = 7);
+        refused("place.reciprocal_bits", |c| c.place.reciprocal_bits = 33);
         refused("link.header", |c| c.link.payload = 0);
         refused("link.bandwidth_mb_s", |c| c.link.bandwidth_mb_s = 0);
         refused("link.upstream_mb_s", |c| c.link.upstream_mb_s = 10_000_001);

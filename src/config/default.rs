@@ -2,7 +2,7 @@
 
 use super::{
     Assemble, Attributes, Backface, BackfaceMethod, Blocks, Clip, Config, Domain, Emit, Engine,
-    Esc, Evaluate, Frames, Hull, Level, Link, Memory, Normals, Overflow, Position, Rounding,
+    Esc, Evaluate, Frames, Hull, Level, Link, Memory, Normals, Overflow, Place, Position, Rounding,
     Scheme, Termination, Tessellator, Triangles, Union, Unit, VertexShader,
 };
 
@@ -21,6 +21,7 @@ impl Default for Config {
             clip: Clip::default(),
             backface: Backface::default(),
             tessellator: Tessellator::default(),
+            place: Place::default(),
             evaluate: Evaluate::default(),
             domain: Domain::default(),
             esc: Esc::default(),
@@ -85,6 +86,13 @@ impl Default for Clip {
 impl Default for Backface {
     fn default() -> Self {
         Self { method: BackfaceMethod::TangentPlane }
+    }
+}
+
+impl Default for Place {
+    /// Twice the bits of a parameter.
+    fn default() -> Self {
+        Self { reciprocal_bits: rtl_model::place::RECIPROCAL_BITS }
     }
 }
 

@@ -150,6 +150,12 @@ const PLAIN: &[Key] = &[
         "integer, pow2, odd or even",
     ),
     key(
+        "place.reciprocal_bits",
+        "fraction bits of a level's reciprocal, of which parameters and forward differences are \
+         made; units d3d11, esc and sfarti have none",
+        "8..=32",
+    ),
+    key(
         "evaluate.scheme",
         "how points are computed; unit sfarti: always de_casteljau",
         "forward, mixed or de_casteljau",

@@ -49,18 +49,19 @@ impl Eq for Fraction {}
 pub struct Entry {
     /// Its parameter.
     pub parameter: Fraction,
-    /// The parameter at which a half-run evaluates it, exact: k R / 2^32 from its corner, R =
-    /// floor(2^48 / level).
+    /// The parameter at which a half-run evaluates it, exact: k R from its corner, R being 1 /
+    /// level truncated to its fraction bits.
     pub run: f64,
     /// Steps k of that half-run; 0 at corners and centre, which need none.
     pub steps: u32,
 }
 
-/// The places of a level, ascending.
+/// The places of a level, ascending; a reciprocal has so many fraction bits, at most 32.
 #[must_use]
-pub fn list(level: Level) -> Vec<Entry> {
+pub fn list(level: Level, reciprocal_bits: u32) -> Vec<Entry> {
     let fx16 = u64::from(level.fx16());
-    let step = ((1_u64 << 48) / fx16) as f64 / 2f64.powi(32);
+    let step = ((1_u64 << (16 + reciprocal_bits)) / fx16) as f64;
+    let step = step / (1_u64 << reciprocal_bits) as f64;
     let mut set = BTreeMap::new();
     let fixed = |parameter: Fraction| Entry { parameter, run: parameter.real(), steps: 0 };
     let mut corners_and_centre = vec![Fraction(0, 1), Fraction(1, 1)];
@@ -107,19 +108,19 @@ pub struct Site {
 }
 
 /// Places the vertices of a patch. The interior has at least level min(m, 2), m the greatest of
-/// all levels.
+/// all levels. A reciprocal has so many fraction bits, at most 32.
 #[must_use]
-pub fn place(levels: &Levels) -> Placed {
+pub fn place(levels: &Levels, reciprocal_bits: u32) -> Placed {
     let all = levels.edges.into_iter().chain(levels.interior);
     let least = all.max().map_or(Level::TWO, |most| most.min(Level::TWO));
     let interior = levels.interior.map(|level| level.max(least));
     let inner = |level: Level| {
-        let list = list(level);
+        let list = list(level, reciprocal_bits);
         list[1..list.len() - 1].to_vec()
     };
     let distinct: BTreeSet<Level> = levels.edges.into_iter().chain(interior).collect();
     Placed {
-        edges: levels.edges.map(list),
+        edges: levels.edges.map(|level| list(level, reciprocal_bits)),
         columns: inner(interior[0]),
         rows: inner(interior[1]),
         reciprocals: distinct.iter().filter(|&&level| level > Level::MIN).count(),

@@ -19,7 +19,7 @@ const LIST_WORDS = 28u;
 const ZIPPER_MAX = 64u;
 
 // floor(2^48 / level) of a level above 1, which is below 2^32: by long division, of whose quotient
-// the first bit stands 32 below the numerator's.
+// the first bit stands 32 below the numerator's. Only so many bits of it are kept.
 fn reciprocal(level: u32) -> u32 {
     var quotient = 0u;
     var rest = 1u;
@@ -29,7 +29,7 @@ fn reciprocal(level: u32) -> u32 {
         rest -= select(0u, level, goes);
         quotient = (quotient << 1u) | u32(goes);
     }
-    return quotient;
+    return quotient & (~0u << (32u - settings.reciprocal_bits));
 }
 
 fn segments_of(level: u32) -> u32 {

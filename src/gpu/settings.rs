@@ -31,6 +31,7 @@ pub struct Settings {
     pub termination: u32,
     pub subpixel_bits: u32,
     pub emit_rounding: u32,
+    pub reciprocal_bits: u32,
     /// A kernel's own.
     pub own: [u32; 16],
 }
@@ -64,6 +65,7 @@ impl Settings {
             termination: u32::from(config.level.termination == Termination::Bounded),
             subpixel_bits: config.emit.subpixel_bits,
             emit_rounding: rounding(config.emit.rounding),
+            reciprocal_bits: config.place.reciprocal_bits,
             ..Self::default()
         }
     }

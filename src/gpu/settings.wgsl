@@ -27,6 +27,8 @@ struct Settings {
     termination: u32,
     subpixel_bits: u32,
     emit_rounding: u32,
+    // Fraction bits of a level's reciprocal, 8 to 32.
+    reciprocal_bits: u32,
     // A kernel's own, as its file says.
     a: u32,
     b: u32,

@@ -17,6 +17,7 @@ pub mod motion;
 #[cfg(feature = "gpu")]
 pub mod picture;
 mod plot;
+pub mod precision;
 pub mod provenance;
 mod random;
 pub mod raster;

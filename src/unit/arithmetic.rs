@@ -12,6 +12,7 @@
 
 pub mod backface;
 mod d3d11;
+pub mod datapath;
 mod esc;
 mod level;
 
@@ -46,6 +47,8 @@ struct Formats {
     w: u64,
     /// A forward-difference register.
     register: u64,
+    /// A level's reciprocal, without the bit before the point.
+    reciprocal: u64,
     /// A component of an attribute.
     attribute: u64,
     /// A screen coordinate.
@@ -64,6 +67,7 @@ impl Formats {
         Self {
             w,
             register: w + u64::from(config.guard()) + 3,
+            reciprocal: config.place.reciprocal_bits.into(),
             attribute: config.attributes.width.into(),
             screen: 16 + u64::from(config.emit.subpixel_bits),
             net: config.net_bits().into(),
@@ -189,17 +193,17 @@ pub const PIECES: &[Piece] = &[
     },
     Piece {
         block: Block::Place,
-        meaning: "a distinct level: its reciprocal, 33 bits of quotient over 24, and the addition \
-                  that rounds level / 2 up",
+        meaning: "a distinct level: its reciprocal, place.reciprocal_bits + 1 bits of quotient \
+                  over 24, and the addition that rounds level / 2 up",
         times: |f| f.get(C::PlaceReciprocals),
-        once: |_| reciprocal(33).with(1, correction(33, 24)).adds(1, 24),
+        once: level_reciprocal,
     },
     Piece {
         block: Block::Place,
-        meaning: "a parameter: one addition of 33 bits, the reciprocal again or 1 - u (not in unit \
-                  sfarti)",
+        meaning: "a parameter: one addition of the reciprocal's bits, the reciprocal again or \
+                  1 - u (not in unit sfarti)",
         times: |f| f.fractional(C::PlaceParameters),
-        once: |_| Ops::default().adds(1, 33),
+        once: |f| Ops::default().adds(1, f.reciprocal + 1),
     },
     d3d11::FACTORS,
     d3d11::POINTS,
@@ -208,7 +212,7 @@ pub const PIECES: &[Piece] = &[
         block: Block::Evaluate,
         meaning: "a forward-difference step: 3 additions of a vec4, W + guard + 3 bits",
         times: |f| f.get(C::EvaluateSteps) - f.curve_points(),
-        once: |f| Ops::default().adds(12, f.register),
+        once: step,
     },
     Piece {
         block: Block::Evaluate,
@@ -222,14 +226,14 @@ pub const PIECES: &[Piece] = &[
         block: Block::Evaluate,
         meaning: "the middle of a curve, (a + d) + 3 (b + c): 4 additions of a vec4, W + 3 bits",
         times: |f| f.centres(),
-        once: |f| Ops::default().adds(16, f.w + 3),
+        once: centre,
     },
     Piece {
         block: Block::Evaluate,
         meaning: "a curve point by de Casteljau: 1 - t, and 6 interpolations of a vec4, each 2 \
                   multiplications by 17 bits and an addition",
         times: |f| f.curve_points(),
-        once: |f| Ops::default().adds(1, 17).with(6, interpolation(f)),
+        once: curve_point,
     },
     Piece {
         block: Block::Evaluate,
@@ -276,10 +280,7 @@ pub const PIECES: &[Piece] = &[
         meaning: "a vertex divided: w > 0, x + w and w - y, both times the viewport's size (15 \
                   bits), one reciprocal of w, and two quotients",
         times: |f| if f.config.divides() { f.get(C::EmitVertices) } else { 0 },
-        once: |f| {
-            let sides = Ops::default().compares(1, f.w).adds(2, f.w + 1).muls(2, f.w + 1, 15);
-            sides.with(1, reciprocal(f.w)).with(2, quotient(f.w + 15, f.w, f.screen))
-        },
+        once: divide,
     },
     Piece {
         block: Block::VertexShader,
@@ -341,26 +342,60 @@ fn root(bits: u64) -> Ops {
     Ops::default().muls(3 * steps + 2, bits, bits).adds(steps, bits).compares(1, 2 * bits)
 }
 
+/// 1 / level, and half a level rounded up.
+fn level_reciprocal(f: Formats) -> Ops {
+    let bits = f.reciprocal + 1;
+    reciprocal(bits).with(1, correction(bits, 24)).adds(1, 24)
+}
+
+/// A step of forward differences.
+fn step(f: Formats) -> Ops {
+    Ops::default().adds(12, f.register)
+}
+
+/// (a + d) + 3 (b + c) of a vec4.
+fn centre(f: Formats) -> Ops {
+    Ops::default().adds(16, f.w + 3)
+}
+
+/// A curve point by de Casteljau.
+fn curve_point(f: Formats) -> Ops {
+    Ops::default().adds(1, 17).with(6, interpolation(f))
+}
+
+/// A vertex to the screen.
+fn divide(f: Formats) -> Ops {
+    let sides = Ops::default().compares(1, f.w).adds(2, f.w + 1).muls(2, f.w + 1, 15);
+    sides.with(1, reciprocal(f.w)).with(2, quotient(f.w + 15, f.w, f.screen))
+}
+
 /// a (1 - t) + b t of a vec4.
 fn interpolation(f: Formats) -> Ops {
     Ops::default().muls(8, f.w, 17).adds(4, f.w + 18)
 }
 
-/// `set_up` of `evaluate/forward.rs`: R has 32 bits, its powers 64, coefficients W + 4, sums of
-/// products W + 71.
+/// `set_up` of `evaluate/forward.rs`: R has n bits, of 32; its powers 2 n and 3 n, at most 64;
+/// coefficients W + 4, sums of products W + 7 and what the cubic's has.
 fn set_up(f: Formats) -> Ops {
-    let (coefficient, sum) = (f.w + 4, f.w + 71);
+    let (first, second, third) = powers(f);
+    let (coefficient, sum) = (f.w + 4, f.w + 7 + third);
     let end = Ops::default()
         .adds(3 + 2, coefficient) // b = 3 (p + s - 2 q), c = 3 (q - p)
-        .muls(1, coefficient, 64)
-        .muls(1, coefficient, 32)
+        .muls(1, coefficient, second)
+        .muls(1, coefficient, first)
         .adds(2 + 1, sum); // D1, D2; D3 is the cubic's own product
     let component = Ops::default()
         .adds(4, coefficient) // a = b3 - b0 + 3 (b1 - b2)
-        .muls(1, coefficient, 64)
+        .muls(1, coefficient, third)
         .adds(1, sum) // 6 a h3
         .with(2, end);
-    Ops::default().muls(1, 32, 32).muls(1, 64, 32).with(4, component)
+    Ops::default().muls(1, first, first).muls(1, second, first).with(4, component)
+}
+
+/// Bits of R, R^2 and R^3.
+fn powers(f: Formats) -> (u64, u64, u64) {
+    let bits = f.reciprocal;
+    (bits, 2 * bits, (3 * bits).min(64))
 }
 
 /// `evaluate/normal.rs`: four rows and a column of points, four columns and a row of points.

@@ -8,6 +8,7 @@
 use super::chain;
 use super::pipeline::{Placed, Placing};
 use super::surface::Front;
+use crate::config::Config;
 use rtl_model::level;
 use rtl_model::place::{List, Placement, Segments};
 
@@ -18,6 +19,10 @@ impl Front for Hybrid {
     type Lists = Segments;
     type List = List;
     const CULLS: bool = true;
+
+    fn placement(config: &Config) -> Placement {
+        Placement::of_reciprocal(config.place.reciprocal_bits)
+    }
 
     fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
         let (levels, events) = level::accept(work.input.seen, work.input.view, work.input.state);

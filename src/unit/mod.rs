@@ -30,7 +30,7 @@ mod pipeline;
 mod resident;
 mod run;
 mod sfarti;
-mod state;
+pub mod state;
 mod surface;
 mod timeline;
 mod tokens;

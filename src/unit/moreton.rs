@@ -13,6 +13,7 @@
 
 use super::pipeline::{Placed, Placing};
 use super::surface::Front;
+use crate::config::Config;
 use rtl_model::level;
 use rtl_model::patch::Levels;
 use rtl_model::place::{List, Placement, Segments};
@@ -24,6 +25,10 @@ impl Front for Moreton {
     type Lists = Segments;
     type List = List;
     const CULLS: bool = false;
+
+    fn placement(config: &Config) -> Placement {
+        Placement::of_reciprocal(config.place.reciprocal_bits)
+    }
 
     fn place(work: Placing<'_>, placement: &mut Placement) -> Placed<Segments> {
         let (levels, events) = level::accept(work.input.seen, work.input.view, work.input.state);

@@ -9,7 +9,7 @@ use rtl_model::patch::Level;
 ///
 /// Levels are quantised to UQ8.16, pixels to UQ16.16 with at least one ulp, both to the nearest.
 #[must_use]
-pub(super) fn under(trace: &level::State, config: &Config) -> level::State {
+pub fn under(trace: &level::State, config: &Config) -> level::State {
     use crate::config::Criterion as Name;
     let over = &config.level;
     let fx16 = |value: f64| (value * 65536.0).round_ties_even() as u64;

@@ -26,6 +26,11 @@ pub(super) trait Front: Send + Sync + 'static {
     /// Whether patches are clipped and culled.
     const CULLS: bool;
 
+    /// Where vertices are placed.
+    fn placement(_config: &Config) -> Placement<Self::List> {
+        Placement::default()
+    }
+
     /// Chooses levels, places the vertices, and says what its blocks did for it.
     fn place(work: Placing<'_>, placement: &mut Placement<Self::List>) -> Placed<Self::Lists>;
 }
@@ -45,7 +50,7 @@ impl<F: Front> Make for Surface<F> {
 
     fn new(config: &Config, frame: &FrameState) -> Self {
         Self {
-            placement: Placement::default(),
+            placement: F::placement(config),
             evaluate: Evaluate::new(evaluate::Settings {
                 position: frame.position(config),
                 guard: config.guard(),

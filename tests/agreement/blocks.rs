@@ -120,10 +120,15 @@ pub(crate) fn backface(ledger: &mut Ledger, patch: &Patch, view: &View) {
 }
 
 /// Place and stitch. Returns the placements of both sides.
-pub(crate) fn place(ledger: &mut Ledger, levels: &Levels) -> (Placement, golden::place::Placed) {
-    let mut got = Placement::default();
+pub(crate) fn place(
+    ledger: &mut Ledger,
+    levels: &Levels,
+    reciprocal_bits: u32,
+) -> (Placement, golden::place::Placed) {
+    let mut got = Placement::of_reciprocal(reciprocal_bits);
     got.set(levels);
-    let want = golden::place::place(levels);
+    let want = golden::place::place(levels, reciprocal_bits);
+    let spread = 2f64.powi(16 - reciprocal_bits as i32);
     let counts =
         |edges: [usize; 4], columns, rows, reciprocals| (edges, columns, rows, reciprocals);
     let edges = got.edges.each_ref().map(|list| list.parameters().len());
@@ -145,7 +150,7 @@ pub(crate) fn place(ledger: &mut Ledger, levels: &Levels) -> (Placement, golden:
     for (list, entries) in lists.zip(wanted) {
         for (&parameter, entry) in list.iter().zip(entries) {
             let error = (f64::from(parameter) - entry.parameter.real() * 65536.0).abs();
-            let at = At { steps: [entry.steps, 0], ..At::default() };
+            let at = At { steps: [entry.steps, 0], spread, ..At::default() };
             ledger.error(Q::PlaceParameter, &at, error);
         }
     }

@@ -187,7 +187,8 @@ fn surface(ledger: &mut Ledger, random: &mut Random, kind: Kind) {
     let view = view(random, settings.position.width);
     let emit =
         emit::Settings { subpixel_bits: random.integer(0, 12), rounding: random.of(Rounding::ALL) };
-    pipeline(ledger, &patch, &view, &levels, settings, emit);
+    let reciprocal_bits = random.of([32, 32, 32, 24, 16, 12, 8]);
+    pipeline(ledger, &patch, &view, &(levels, reciprocal_bits), settings, emit);
 }
 
 /// All blocks of a unit that divides at midpoints: on the lists that it chooses, and on any.
@@ -217,16 +218,16 @@ fn subdivision(ledger: &mut Ledger, random: &mut Random, kind: Kind) {
     }
 }
 
-/// Place, evaluate, stitch and emit.
+/// Place, evaluate, stitch and emit; levels have the bits of their reciprocals beside them.
 fn pipeline(
     ledger: &mut Ledger,
     patch: &Patch,
     view: &View,
-    levels: &Levels,
+    (levels, reciprocal_bits): &(Levels, u32),
     settings: Settings,
     emit: emit::Settings,
 ) {
-    let (placement, placed) = blocks::place(ledger, levels);
+    let (placement, placed) = blocks::place(ledger, levels, *reciprocal_bits);
     let triangles = blocks::stitch(ledger, &placement, &placed);
     let vertices = blocks::evaluate(ledger, patch, settings, (&placement, &placed));
     blocks::degenerate(ledger, &placement, &vertices, &triangles);
@@ -310,7 +311,7 @@ pub(crate) fn trace(ledger: &mut Ledger, name: &str) {
                 overflow: config.position.overflow,
             };
             let emit = emit::Settings { subpixel_bits: 8, rounding: config.emit.rounding };
-            pipeline(ledger, patch, view, &levels, settings, emit);
+            pipeline(ledger, patch, view, &(levels, 32), settings, emit);
         }
         for termination in [Termination::EightCurves, Termination::Bounded] {
             let lists = dyadic::level(ledger, patch, view, &drawn.state, termination);

@@ -11,7 +11,7 @@
 //! 1, 6), the next a divided difference, at most 6, the last a point of the hull, 1. So registers
 //! of W + 8 + guard bits hold everything, with room for the roundings.
 
-use crate::number::{Rounding, RoundingMode, shift_right};
+use crate::number::{NearestEven, Rounding, RoundingMode, shift_right};
 use crate::patch::Point;
 
 /// Bits that the power basis of a surface needs above a coordinate's.
@@ -109,6 +109,33 @@ impl Net {
         let [a, b, c, d] = &self.by_u;
         let at = |curve: &Cubic| curve.at::<R, NARROW>(v);
         Cubic([at(a), at(b), at(c), at(d)])
+    }
+}
+
+/// The power basis of a surface in registers of W + [`NET_BITS`] + guard bits, by itself: to be
+/// compared with other evaluators. What is sampled of it is rounded to nearest even throughout, and
+/// not fitted to a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PowerBasis {
+    net: Net,
+    guard: u32,
+    parameter_bits: u32,
+}
+
+impl PowerBasis {
+    /// Of control points of W bits, where W + [`NET_BITS`] + `guard` is at most 63.
+    #[must_use]
+    pub fn of(points: &[Point; 16], guard: u32, parameter_bits: u32) -> Self {
+        Self { net: Net::of(points, guard), guard, parameter_bits }
+    }
+
+    /// The surface's point at u and v, fractions of `parameter_bits` bits, 0 to 1.
+    #[must_use]
+    pub fn at(&self, [u, v]: [u64; 2]) -> Point {
+        let parameter = |fx| Parameter { fx, bits: self.parameter_bits };
+        let row = self.net.row::<NearestEven, false>(parameter(v));
+        let register = row.at::<NearestEven, false>(parameter(u));
+        register.map(|c| shift_right::<NearestEven>(c, self.guard))
     }
 }
 
