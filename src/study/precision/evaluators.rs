@@ -3,11 +3,10 @@
 //! evaluator puts their points, by bits of a position.
 //!
 //! Control points are those in f64, rounded once to the position format; what comes out is
-//! projected in f64 and not snapped: so errors are those of control points and evaluator alone. Segments are
-//! powers of two, whose parameters and reciprocals are exact in every evaluator. Guard bits are the
-//! fewest that the evaluator has: with more of them all three come to the error of the position
-//! format itself, and what they are worth can be read off the bits that stand beside: of the widest
-//! register, which is what is paid for.
+//! projected in f64 and not snapped: so errors are those of control points and evaluator alone.
+//! Segments are powers of two, whose parameters and reciprocals are exact in every evaluator.
+//! Beside an evaluator's fewest guard bits stand more of them, with which all three come to the
+//! error of the position format itself; the bits of the widest register say what that costs.
 
 mod table;
 
