@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::golden::{Real, emit, evaluate, place};
 use crate::output::space;
 use crate::sink::{Arrived, FrameInfo, PatchMesh, Sink};
-use crate::study::distance::{self, Deviation, Mesh, Place};
+use crate::study::distance::{self, Deviation, Mesh, Place, Samples};
 use glam::DMat4;
 use rtl_model::level;
 use rtl_model::patch::{ONE, View};
@@ -235,7 +235,8 @@ impl<'a> Meter<'a> {
         });
         let made = Mesh { vertices: vertices.collect(), triangles: mesh.triangles.to_vec() };
         let to_world = DMat4::from_cols_array(mesh.to_world);
-        let place = Place { to_world, viewport: at.view.viewport, segments: self.segments };
+        let viewport = at.view.viewport;
+        let place = Place { to_world, viewport, segments: self.segments, samples: Samples::All };
         let deviation = distance::patch(&truth.points, &made, &place);
         self.measured.surface = self.measured.surface.with(&deviation);
     }
