@@ -236,7 +236,8 @@ impl<'a> Meter<'a> {
         let made = Mesh { vertices: vertices.collect(), triangles: mesh.triangles.to_vec() };
         let to_world = DMat4::from_cols_array(mesh.to_world);
         let viewport = at.view.viewport;
-        let place = Place { to_world, viewport, segments: self.segments, samples: Samples::All };
+        let samples = Samples::Ends(self.segments);
+        let place = Place { to_world, viewport, samples };
         let deviation = distance::patch(&truth.points, &made, &place);
         self.measured.surface = self.measured.surface.with(&deviation);
     }
