@@ -50,12 +50,33 @@ pub(super) fn lines(runs: &[Column<'_>]) -> Vec<Line> {
     lines.each("patches tessellated", |run| run.tessellated());
     lines.total("vertices", Block::Emit, Counter::EmitVertices);
     lines.total("triangles", Block::Emit, Counter::EmitTriangles);
+    if lines.any_has(Block::VertexCache) {
+        vertex_cache(&mut lines);
+    }
     screen(&mut lines);
     arithmetic(&mut lines);
     time(&mut lines);
     frames(&mut lines);
     verdict(&mut lines);
     lines.lines
+}
+
+fn vertex_cache(lines: &mut Lines<'_>) {
+    use Counter as C;
+    lines.heading("vertex cache of the host's triangles");
+    for (label, counter) in [
+        ("indices", C::VertexCacheIndices),
+        ("strips", C::VertexCacheStrips),
+        ("batches", C::VertexCacheBatches),
+        ("hits", C::VertexCacheHits),
+        ("misses", C::VertexCacheMisses),
+    ] {
+        lines.total(label, Block::VertexCache, counter);
+    }
+    lines.each("vertices shaded per triangle", |run| {
+        let misses = run.whole.counters.get(C::VertexCacheMisses);
+        run.per_triangle(misses).filter(|_| run.has(Block::VertexCache))
+    });
 }
 
 fn screen(lines: &mut Lines<'_>) {

@@ -93,13 +93,15 @@ impl Series {
 pub fn series(run: &Run) -> Vec<Series> {
     let Run { report, seen } = run;
     assert_eq!(report.frames.len(), seen.len(), "every frame was seen");
-    let mut footprint = 0;
+    let (mut resident, mut meshes) = (0, 0);
     let frames = report.frames.iter().zip(seen).map(|(frame, seen)| {
-        footprint += resident(&frame.counters);
-        numbers(report, frame, seen, 1, footprint)
+        resident += written_to_stay(&frame.counters);
+        meshes = frame.counters.get(C::MemoryMeshesPeak).max(meshes);
+        numbers(report, frame, seen, 1, resident + meshes)
     });
     let frames: Vec<Vec<Number>> = frames.collect();
-    let whole = numbers(report, &report.whole(), &whole(seen), seen.len() as u64, footprint);
+    let whole =
+        numbers(report, &report.whole(), &whole(seen), seen.len() as u64, resident + meshes);
     let of = |(k, whole): (usize, Number)| {
         let frames = frames.iter().map(|numbers| numbers[k].value).collect();
         Series { whole, frames }
@@ -113,8 +115,8 @@ pub(super) fn whole(seen: &[Seen]) -> Seen {
     seen.iter().fold(Seen::default(), Seen::with)
 }
 
-/// Bytes that go into device memory to stay there.
-pub(super) fn resident(counters: &Counters) -> u64 {
+/// Bytes of points and attributes that go into device memory to stay there.
+fn written_to_stay(counters: &Counters) -> u64 {
     let kinds = [C::MemoryWrittenControlPoints, C::MemoryWrittenAttributes];
     kinds.map(|kind| counters.get(kind)).iter().sum()
 }
