@@ -39,7 +39,8 @@ pub(crate) struct Args {
     engine: Option<Engine>,
     /// Points of each patch's surface along u and along v whose distance from the triangles is
     /// measured; 0: no errors
-    #[arg(long, value_name = "N", default_value_t = 17, value_parser = clap::value_parser!(u32).range(0..=256))]
+    #[arg(long, value_name = "N", default_value_t = 17,
+          value_parser = clap::value_parser!(u32).range(0..=256))]
     samples: u32,
     /// Also say what binds each unit in the first frame at each level from 1 to 64; with --out in
     /// roofline.csv and roofline.svg

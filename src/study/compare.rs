@@ -88,7 +88,8 @@ fn unknown(name: &str) -> String {
 }
 
 /// Runs the trace once for each of `configs`, at least one, in the current rayon pool. The surface
-/// of each tessellated patch is sampled at `samples` by `samples` points for its error. `watch` sees each command before its unit does.
+/// of each tessellated patch is sampled at `samples` by `samples` points for its error. `watch`
+/// sees each command before its unit does.
 ///
 /// # Errors
 /// Those of the trace and of [`simulate`]; [`Error::System`] for a trace that has changed between

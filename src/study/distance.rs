@@ -339,7 +339,7 @@ mod tests {
         let seen = Place { samples: Samples::Middles(8), ..all };
         let [all, seen] = [all, seen].map(|place| patch(&points, &lower, &place));
         assert_eq!((all.samples, seen.samples), (81, 4 * 8));
-        assert!((seen.largest_pixels - 25.0).abs() < 1e-9, "{seen:?}");
+        assert!((seen.largest_pixels - 18.75).abs() < 1e-9, "{seen:?}");
     }
 
     #[test]

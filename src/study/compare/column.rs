@@ -119,7 +119,7 @@ impl<'a> Column<'a> {
 
     /// Of the blocks before and behind the one that is used most, the one that is held up for the
     /// greatest part of its cycles, and that part.
-    pub(super) fn waits(&self, side: Side) -> Option<Cell> {
+    pub(super) fn waits(&self, side: Side) -> Option<[Cell; 2]> {
         let report = &self.run.report;
         let binds = bound(report, &self.whole)?.block;
         let k = report.chain.iter().position(|stage| stage.block == binds)?;
@@ -131,7 +131,7 @@ impl<'a> Column<'a> {
         let shares = range.filter_map(|i| Some((i, ratio(of(&stages[i]), stages[i].total)?)));
         let (i, share) = shares.reduce(|best, next| if next.1 > best.1 { next } else { best })?;
         let name = report.chain[i].block.name();
-        Some(Cell::Word(format!("{name} {:.1} %", 100.0 * share)))
+        Some([Cell::Word(name.to_owned()), percent(share)])
     }
 
     fn busiest(&self) -> Option<&StageTimes> {

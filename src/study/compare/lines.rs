@@ -140,17 +140,21 @@ fn time(lines: &mut Lines<'_>) {
     lines.number("frames a second", "unit", "frames");
 }
 
+/// What frames differ in: one alone in nothing.
 fn frames(lines: &mut Lines<'_>) {
-    lines.heading("a frame: least, median, most");
+    if lines.runs.iter().all(|column| column.run.seen.len() < 2) {
+        return;
+    }
+    lines.heading("a frame");
     for (label, block, name) in [
         ("triangles", "emit", "triangles"),
         ("link bytes", "link", "bytes.total"),
         ("elapsed cycles", "unit", "cycles.total"),
         ("largest error", "error", "largest"),
     ] {
-        for (which, label) in [(Which::Least, label), (Which::Median, ""), (Which::Most, "")] {
-            lines.each(label, |run| run.spread(block, name, which));
-        }
+        lines.each(&format!("{label}, least"), |run| run.spread(block, name, Which::Least));
+        lines.each("  median", |run| run.spread(block, name, Which::Median));
+        lines.each("  most", |run| run.spread(block, name, Which::Most));
     }
 }
 
@@ -170,8 +174,12 @@ fn verdict(lines: &mut Lines<'_>) {
     });
     lines.each("  starved", |run| run.share(|t| t.starved + t.starved_by_port));
     lines.each("  blocked", |run| run.share(|t| t.blocked + t.blocked_by_order));
-    lines.each("  before it, blocked", |run| run.waits(Side::Before));
-    lines.each("  behind it, starved", |run| run.waits(Side::Behind));
+    for (side, label) in
+        [(Side::Before, "  before it, blocked most"), (Side::Behind, "  behind it, starved most")]
+    {
+        lines.each(label, |run| run.waits(side).map(|[block, _]| block));
+        lines.each("    for", |run| run.waits(side).map(|[_, share]| share));
+    }
 }
 
 fn bytes(lines: &mut Lines<'_>) {

@@ -21,6 +21,9 @@ pub(super) enum Cell {
     Word(String),
 }
 
+/// From here on nobody wants to read decimals.
+const MANY: f64 = 10_000.0;
+
 impl From<Value> for Cell {
     fn from(value: Value) -> Self {
         match value {
@@ -42,6 +45,7 @@ impl Cell {
     fn text(&self) -> String {
         match self {
             Self::Number(n) => grouped(*n),
+            Self::Rate(rate) if *rate >= MANY => grouped(rate.round() as u64),
             Self::Rate(rate) => format!("{rate:.3}"),
             Self::Word(word) => word.clone(),
         }
@@ -130,10 +134,11 @@ mod tests {
     fn numbers_stand_side_by_side_with_their_ratios() {
         let text = text(&pair(), "pair");
         let parts: Vec<&str> = text.split("\n\n").collect();
-        let part = |name: &str| *parts.iter().find(|p| p.starts_with(name)).expect("a heading");
+        let is = |part: &str, name: &str| part.lines().any(|line| line.starts_with(name));
+        let part = |name: &str| *parts.iter().find(|p| is(p, name)).expect("a heading");
         // Columns are as wide as their widest cell, which names a block.
-        let line = |label: &str, cells: [&str; 3]| {
-            format!("  {label:<40}  {:>20}  {:>20}  {:>5}", cells[0], cells[1], cells[2])
+        let line = |label: &str, [first, second, ratio]: [&str; 3]| {
+            format!("  {label:<40}  {first:>13}  {second:>13}  {ratio:>5}")
         };
         for (heading, label, cells) in [
             ("bytes over the link", "control points", ["1 000", "0", "0.00"]),
@@ -149,14 +154,13 @@ mod tests {
             ("arithmetic", "  mean bits x bits", ["15.000", "15.000", "1.00"]),
             ("energy", "link (price assumed)", ["20.000", "60.000", "3.00"]),
             ("time", "elapsed cycles", ["200", "200", "1.00"]),
-            ("a frame", "link bytes", ["0", "0", "-"]),
+            ("a frame", "link bytes, least", ["0", "0", "-"]),
+            ("a frame", "  most", ["1 000", "3 000", "3.00"]),
+            ("time", "frames a second", ["20 000 000", "20 000 000", "1.00"]),
             ("verdict", "cycles per triangle", ["25.000", "25.000", "1.00"]),
             ("verdict", "what binds", ["stitch", "stitch", ""]),
-            (
-                "verdict",
-                "  behind it, starved",
-                ["vertex_shader 40.0 %", "vertex_shader 40.0 %", ""],
-            ),
+            ("verdict", "  behind it, starved most", ["vertex_shader", "vertex_shader", ""]),
+            ("verdict", "    for", ["40.0 %", "40.0 %", ""]),
         ] {
             let line = line(label, cells);
             let found = part(heading).lines().any(|found| found == line.trim_end());

@@ -1,6 +1,6 @@
 //! Reference: the commands of a trace in, what f64 makes of them out, once for all formats: the
-//! true surfaces, whether a patch is to be seen, which lists its criterion asks for, and which edges
-//! patches share.
+//! true surfaces, whether a patch is to be seen, which lists its criterion asks for, and which
+//! edges patches share.
 //!
 //! Decisions are those of the golden models on control points in f64, rounded to positions of 48
 //! bits: 24 more than the shader's f32 has, and all that the golden models of quantised points can

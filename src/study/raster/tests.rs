@@ -1,3 +1,6 @@
+//! Triangles whose pixels are known by hand, or by the definition: every centre against every
+//! edge.
+
 use super::*;
 use proptest::prelude::*;
 use std::collections::HashSet;
