@@ -201,8 +201,7 @@ impl<T: Flow> Running<T> {
 
     /// With a recorder, if there is an engine.
     fn watched(config: &Config, wanted: &Wanted) -> Self {
-        let shapes = chain::shapes(config).map(|(_, shape)| shape);
-        let recorder = Recorder::new(wanted, config.frames, shapes);
+        let recorder = Recorder::new(wanted, config.frames, chain::shapes(config));
         Timer::new(config, recorder).map_or(Self::None, Self::Watched)
     }
 

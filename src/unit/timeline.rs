@@ -18,6 +18,7 @@ use lane::{Bounds, Lane, Times};
 use crate::error::{Error, Result};
 use crate::report::timeline::{Crossed, Queue, State, Timeline, Track, Wanted, Window};
 use crate::report::{self, Report};
+use rtl_model::counter::Block;
 use rtl_model::time::{Frames, Hold, Probe, Shape};
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -61,6 +62,10 @@ struct StageLog {
     pushed: Times,
     popped: Times,
     emitted: u64,
+    /// Whether what it makes of a token may leave with a later one: of patches, a wave.
+    gathers: bool,
+    /// What it had emitted when the last token left, and the one before.
+    emitted_at: [u64; 2],
     /// Tokens that have left, and when the last did.
     left: u64,
     left_at: u64,
@@ -81,11 +86,11 @@ struct Link {
 }
 
 impl Recorder {
-    /// A recorder for a chain of these shapes.
+    /// A recorder for a chain of these blocks.
     pub(super) fn new(
         wanted: &Wanted,
         frames: Frames,
-        shapes: impl Iterator<Item = Shape>,
+        chain: impl Iterator<Item = (Block, Shape)>,
     ) -> Self {
         let (floor, end) = match &wanted.window {
             Window::Cycles(cycles) => (cycles.start, Some(cycles.end)),
@@ -94,7 +99,7 @@ impl Recorder {
         Self {
             wanted: wanted.clone(),
             overlap: frames == Frames::Overlap,
-            stages: shapes.map(|shape| StageLog::new(shape.lanes)).collect(),
+            stages: chain.map(|(block, shape)| StageLog::new(block, shape.lanes)).collect(),
             link: Link::default(),
             bounds: Bounds { floor, end, kept: 0 },
             drained: 0,
@@ -165,14 +170,16 @@ impl Recorder {
     /// Moves the mark on from stage `k`, if its token has left.
     fn follow(&mut self, k: usize) {
         for k in k..self.stages.len() {
-            let StageLog { mark, left, left_at, emitted, .. } = self.stages[k];
+            let StageLog { mark, left, left_at, emitted, gathers, emitted_at, .. } = self.stages[k];
             if mark != Some(left) {
                 return;
             }
             // By the time the mark is through the chain, later tokens have left this block.
             self.behind = self.behind.max(left_at + 1);
             if let Some(next) = self.stages.get_mut(k + 1) {
-                next.mark = Some(emitted);
+                // A token that nothing came of waits for others.
+                let waits = gathers && emitted_at[0] == emitted_at[1];
+                next.mark = Some(emitted + u64::from(waits));
             }
         }
         self.bounds.end = self.bounds.end.or(Some(self.behind));
@@ -256,7 +263,7 @@ impl Recorder {
 }
 
 impl StageLog {
-    fn new(lanes: u32) -> Self {
+    fn new(block: Block, lanes: u32) -> Self {
         Self {
             lanes: (0..lanes).map(|_| Lane::default()).collect(),
             pending: VecDeque::new(),
@@ -264,6 +271,8 @@ impl StageLog {
             pushed: Times::default(),
             popped: Times::default(),
             emitted: 0,
+            gathers: block == Block::Group,
+            emitted_at: [0; 2],
             left: 0,
             left_at: 0,
             mark: None,
@@ -356,6 +365,7 @@ impl Probe for Recorder {
         log.lanes[lane].close(accept, waited, next.max(at + 1), &mut self.bounds);
         log.left += 1;
         log.left_at = at;
+        log.emitted_at = [log.emitted_at[1], log.emitted];
         if log.mark.is_some() {
             self.follow(stage);
         }

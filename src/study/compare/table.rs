@@ -22,7 +22,7 @@ pub(super) enum Cell {
 }
 
 /// From here on nobody wants to read decimals.
-const MANY: f64 = 10_000.0;
+const MANY: f64 = 1000.0;
 
 impl From<Value> for Cell {
     fn from(value: Value) -> Self {

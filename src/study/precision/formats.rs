@@ -4,9 +4,9 @@
 //! The area is an estimate: the operators of the path from levels to screen positions, each as
 //! `unit::arithmetic` counts it, in full-adder cells. A multiplier of v by w bits is v w of them:
 //! so many bits have the partial products of an array (Baugh and Wooley 1973, abstract), each with
-//! an AND gate and a full adder (EP 0 152 046, 1985, on arrays of n by n). That an adder or comparator
-//! of w bits is w cells (carries ripple) is assumed; registers, wires, tables and control are left
-//! out. An operator that a curve needs only once is shared over
+//! an AND gate and a full adder (EP 0 152 046, 1985, on arrays of n by n). That an adder or
+//! comparator of w bits is w cells (carries ripple) is assumed; registers, wires, tables and
+//! control are left out. An operator that a curve needs only once is shared over
 //! the cycles of the set-up.
 
 use super::POINTS_MAX;

@@ -124,9 +124,9 @@ pub fn text(study: &Study, title: &str) -> String {
 }
 
 const NOTE: &str = "largest, rms: positions on the screen from the true surface in f64; exact: \
-    where k / level would put them.\nbits: position, accumulators, parameter, reciprocal and screen \
-    coordinate of one coordinate.\narea: an estimate in full-adder cells, an adder of w bits w, a \
-    multiplier of v by w bits v w; without registers and control.";
+    where k / level would put them.\nbits: position, accumulators, parameter, reciprocal and \
+    screen coordinate of one coordinate.\narea: an estimate in full-adder cells, an adder of w \
+    bits w, a multiplier of v by w bits v w; without registers and control.";
 
 const COLUMNS: [&str; 13] = [
     "format",
