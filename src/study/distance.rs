@@ -110,9 +110,8 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
         p.truncate() / p.w
     };
     let vertices: Vec<DVec3> = mesh.vertices.iter().map(|&v| to_world(v)).collect();
-    let facet = |t: &Triangle| Facet::new(t.map(|v| vertices[usize::from(v)]));
-    let facets: Vec<Facet> = mesh.triangles.iter().map(facet).collect();
-    let clusters = clusters(&facets);
+    let corners = |t: &Triangle| t.map(|v| vertices[usize::from(v)]);
+    let facets = Facets::new(mesh.triangles.iter().map(corners));
     let to_clip = place.to_world.inverse();
     let screen = |p: DVec3| {
         let clip = to_clip * p.extend(1.0);
@@ -130,7 +129,7 @@ pub(super) fn patch(points: &[Real; 16], mesh: &Mesh, place: &Place) -> Deviatio
                 continue;
             }
             let sample = to_world(clip);
-            let near = nearest(&facets, &clusters, sample, &mut last);
+            let near = facets.nearest(sample, &mut last);
             let pixels = match (seen, screen(near)) {
                 (Some(a), Some(b)) => a.distance(b),
                 _ => 0.0,
@@ -149,47 +148,55 @@ fn inside(at: DVec2, place: &Place) -> bool {
 /// Facets that follow one another in a mesh, and so lie side by side, under one ball.
 const CLUSTER: usize = 16;
 
-/// A ball round each [`CLUSTER`] of facets.
-fn clusters(facets: &[Facet]) -> Vec<Ball> {
-    let ball = |facets: &[Facet]| {
-        let centres = facets.iter().map(|facet| facet.ball.centre);
-        let centre = centres.sum::<DVec3>() / facets.len() as f64;
-        let reach = |facet: &Facet| facet.ball.centre.distance(centre) + facet.ball.radius;
-        Ball { centre, radius: facets.iter().map(reach).fold(0.0, f64::max) }
-    };
-    facets.chunks(CLUSTER).map(ball).collect()
+/// Triangles, among which the nearest is to be found.
+struct Facets {
+    all: Vec<Facet>,
+    /// A ball round each.
+    balls: Vec<Ball>,
+    /// A ball round each [`CLUSTER`] of them.
+    clusters: Vec<Ball>,
 }
 
-/// The nearest point of all facets. `last` is the facet that it was on before: a good first guess.
-fn nearest(facets: &[Facet], clusters: &[Ball], p: DVec3, last: &mut usize) -> DVec3 {
-    let mut best = facets[*last].nearest(p);
-    let mut least = best.distance(p);
-    let mut offer = |k: usize, least: &mut f64| {
-        let candidate = facets[k].nearest(p);
-        let distance = candidate.distance(p);
-        if distance < *least {
-            (best, *least, *last) = (candidate, distance, k);
-        }
-    };
-    // A better one: the closer the guess, the fewer facets may hold something nearer.
-    let balls = clusters.iter().map(|cluster| cluster.centre.distance_squared(p));
-    let first = CLUSTER * closest(balls);
-    let members = &facets[first..facets.len().min(first + CLUSTER)];
-    offer(first + closest(members.iter().map(|f| f.ball.centre.distance_squared(p))), &mut least);
-    for (k, (members, cluster)) in facets.chunks(CLUSTER).zip(clusters).enumerate() {
-        if cluster.may_be_within(least, p) {
-            for (i, facet) in members.iter().enumerate() {
-                if facet.ball.may_be_within(least, p) {
-                    offer(CLUSTER * k + i, &mut least);
+impl Facets {
+    fn new(triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
+        let all: Vec<Facet> = triangles.map(Facet::new).collect();
+        let balls: Vec<Ball> = all.iter().map(|facet| Ball::round(&facet.corners)).collect();
+        let clusters = balls.chunks(CLUSTER).map(Ball::round_balls).collect();
+        Self { all, balls, clusters }
+    }
+
+    /// The nearest point of all facets. `last` is the facet that it was on before: a good first
+    /// guess.
+    fn nearest(&self, p: DVec3, last: &mut usize) -> DVec3 {
+        let mut best = self.all[*last].nearest(p);
+        let mut least = best.distance(p);
+        let mut offer = |k: usize, least: &mut f64| {
+            let candidate = self.all[k].nearest(p);
+            let distance = candidate.distance(p);
+            if distance < *least {
+                (best, *least, *last) = (candidate, distance, k);
+            }
+        };
+        // A better one: the closer the guess, the fewer facets may hold something nearer.
+        let first = CLUSTER * closest(&self.clusters, p);
+        let members = &self.balls[first..self.balls.len().min(first + CLUSTER)];
+        offer(first + closest(members, p), &mut least);
+        for (k, (members, cluster)) in self.balls.chunks(CLUSTER).zip(&self.clusters).enumerate() {
+            if cluster.may_be_within(least, p) {
+                for (i, ball) in members.iter().enumerate() {
+                    if ball.may_be_within(least, p) {
+                        offer(CLUSTER * k + i, &mut least);
+                    }
                 }
             }
         }
+        best
     }
-    best
 }
 
-/// Which of the distances is the least, the first of equals.
-fn closest(distances: impl Iterator<Item = f64>) -> usize {
+/// Which of the balls has its centre nearest to `p`, the first of equals.
+fn closest(balls: &[Ball], p: DVec3) -> usize {
+    let distances = balls.iter().map(|ball| ball.centre.distance_squared(p));
     let least = |best: (usize, f64), next: (usize, f64)| if next.1 < best.1 { next } else { best };
     distances.enumerate().reduce(least).map_or(0, |(k, _)| k)
 }
@@ -202,6 +209,20 @@ struct Ball {
 }
 
 impl Ball {
+    /// Round a triangle, from its centroid.
+    fn round(corners: &[DVec3; 3]) -> Self {
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
+        Self { centre, radius }
+    }
+
+    /// Round all of some balls, at least one.
+    fn round_balls(balls: &[Self]) -> Self {
+        let centre = balls.iter().map(|ball| ball.centre).sum::<DVec3>() / balls.len() as f64;
+        let reach = |ball: &Self| ball.centre.distance(centre) + ball.radius;
+        Self { centre, radius: balls.iter().map(reach).fold(0.0, f64::max) }
+    }
+
     /// Whether some point of the ball may be nearer to `p` than `distance`.
     fn may_be_within(&self, distance: f64, p: DVec3) -> bool {
         let reach = distance + self.radius;
@@ -209,11 +230,10 @@ impl Ball {
     }
 }
 
-/// A triangle, and a ball round it.
+/// A triangle.
 #[derive(Clone, Copy, Debug)]
 struct Facet {
     corners: [DVec3; 3],
-    ball: Ball,
     /// Products of its sides from corner 0, and one over the square of twice its area: 0 without
     /// area.
     gram: [f64; 3],
@@ -223,13 +243,11 @@ struct Facet {
 impl Facet {
     fn new(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
-        let centre = (a + b + c) / 3.0;
-        let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
         let [along, up] = [b - a, c - a];
         let gram = [along.dot(along), along.dot(up), up.dot(up)];
         let square = along.cross(up).length_squared();
         let inverse = if square > 0.0 { square.recip() } else { 0.0 };
-        Self { corners, ball: Ball { centre, radius }, gram, inverse }
+        Self { corners, gram, inverse }
     }
 
     /// Its point that is nearest to `p`: the foot of the perpendicular, if that is inside, else on
@@ -243,9 +261,17 @@ impl Facet {
         if self.inverse > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
             return a + along * s + up * t;
         }
-        let sides = [on_side(a, b, p), on_side(b, c, p), on_side(c, a, p)];
-        let nearer = |q: DVec3, r: DVec3| if r.distance(p) < q.distance(p) { r } else { q };
-        nearer(nearer(sides[0], sides[1]), sides[2])
+        // It is on one of the sides that p is beyond; where rounding or a lack of area says that it
+        // is beyond none, on any of the three.
+        let beyond = [t < 0.0, s + t > 1.0, s < 0.0];
+        let any = self.inverse == 0.0 || beyond == [false; 3];
+        let sides = [[a, b], [b, c], [c, a]].into_iter().zip(beyond);
+        let nearest = sides.filter(|(_, beyond)| any || *beyond).map(|([a, b], _)| {
+            let q = on_side(a, b, p);
+            (q, q.distance_squared(p))
+        });
+        let nearer = |q: (DVec3, f64), r: (DVec3, f64)| if r.1 < q.1 { r } else { q };
+        nearest.reduce(nearer).expect("a triangle has sides").0
     }
 }
 
@@ -347,15 +373,14 @@ mod tests {
         let wave = |u: f64, v: f64| [u, v, (9.0 * u).sin() * (7.0 * v).cos(), 1.0];
         let mesh = grid(9, wave);
         let corner = |v: u16| DVec4::from(mesh.vertices[usize::from(v)]).truncate();
-        let facets: Vec<Facet> = mesh.triangles.iter().map(|t| Facet::new(t.map(corner))).collect();
-        let clusters = clusters(&facets);
-        assert!(clusters.len() == 11 && !facets.len().is_multiple_of(CLUSTER));
+        let facets = Facets::new(mesh.triangles.iter().map(|t| t.map(corner)));
+        assert!(facets.clusters.len() == 11 && !facets.all.len().is_multiple_of(CLUSTER));
         let mut last = 0;
         for k in 0..500_u32 {
             let at = |prime: u32| f64::from(k * prime % 101) / 80.0 - 0.1;
             let p = DVec3::new(at(7), at(31), at(59));
-            let found = nearest(&facets, &clusters, p, &mut last).distance(p);
-            let all = facets.iter().map(|facet| facet.nearest(p).distance(p));
+            let found = facets.nearest(p, &mut last).distance(p);
+            let all = facets.all.iter().map(|facet| facet.nearest(p).distance(p));
             assert_eq!(found, all.fold(f64::INFINITY, f64::min), "{p}");
         }
     }
