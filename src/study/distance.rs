@@ -261,17 +261,15 @@ impl Facet {
         if self.inverse > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
             return a + along * s + up * t;
         }
-        // It is on one of the sides that p is beyond; where rounding or a lack of area says that it
-        // is beyond none, on any of the three.
-        let beyond = [t < 0.0, s + t > 1.0, s < 0.0];
-        let any = self.inverse == 0.0 || beyond == [false; 3];
-        let sides = [[a, b], [b, c], [c, a]].into_iter().zip(beyond);
-        let nearest = sides.filter(|(_, beyond)| any || *beyond).map(|([a, b], _)| {
-            let q = on_side(a, b, p);
-            (q, q.distance_squared(p))
-        });
-        let nearer = |q: (DVec3, f64), r: (DVec3, f64)| if r.1 < q.1 { r } else { q };
-        nearest.reduce(nearer).expect("a triangle has sides").0
+        let sides = [on_side(a, b, p), on_side(b, c, p), on_side(c, a, p)];
+        let [d, e, f] = sides.map(|q| q.distance_squared(p));
+        if d <= e && d <= f {
+            sides[0]
+        } else if e <= f {
+            sides[1]
+        } else {
+            sides[2]
+        }
     }
 }
 
