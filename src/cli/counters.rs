@@ -6,6 +6,7 @@ use rtl_model::counter::{Block, DECLARATIONS, Measure};
 use std::fmt::Write;
 use tessim::config::{Config, Unit};
 use tessim::error::{Error, Result};
+use tessim::output::page::Definition;
 use tessim::unit::arithmetic::PIECES;
 use tessim::unit::chain;
 
@@ -38,6 +39,20 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         (Some(name), true) => Err(unknown(name, &all)),
         _ => print::print(&text(&chosen)),
     }
+}
+
+/// The same for a page.
+pub(crate) fn definitions() -> Vec<Definition> {
+    let definition = |entry: Entry| {
+        let of = entry.pieces.iter().map(|piece| format!("; of {piece}"));
+        Definition {
+            name: entry.full_name(),
+            measure: entry.measure.to_string(),
+            meaning: entry.meaning.to_owned() + &of.collect::<String>(),
+            law: entry.law.to_owned(),
+        }
+    };
+    entries().into_iter().map(definition).collect()
 }
 
 /// Every row of every unit, in the order of reports.

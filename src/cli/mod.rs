@@ -18,6 +18,7 @@ mod print;
 mod progress;
 #[cfg(feature = "gpu")]
 mod render;
+mod report;
 mod run;
 mod scene;
 mod study;
@@ -59,6 +60,7 @@ enum Command {
     Study(study::Args),
     Precision(precision::Args),
     Sweep(sweep::Args),
+    Report(report::Args),
     #[cfg(feature = "gpu")]
     Render(render::Args),
 }
@@ -100,6 +102,7 @@ impl Cli {
             Command::Study(args) => study::run(args, self.quiet),
             Command::Precision(args) => precision::run(args, self.quiet),
             Command::Sweep(args) => sweep::run(args, self.quiet),
+            Command::Report(args) => report::run(args, self.quiet),
             #[cfg(feature = "gpu")]
             Command::Render(args) => render::run(args),
         }

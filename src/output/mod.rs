@@ -13,6 +13,7 @@ pub mod folder;
 pub mod mesh;
 pub mod obj;
 pub mod occupancy;
+pub mod page;
 #[cfg(feature = "gpu")]
 pub mod picture;
 pub mod ply;

@@ -1,0 +1,45 @@
+//! `report`: a result folder as one page.
+
+use super::counters;
+use super::print;
+use std::path::{Path, PathBuf};
+use tessim::error::Result;
+use tessim::output::page::{self, Folder};
+
+/// Make one HTML page of a result folder
+///
+/// The page holds all it shows: tables to sort and to filter, plots and pictures, numbers over the
+/// frames, what each number means, the configuration and the hashes of what was read. It takes the
+/// folders that run, compare, precision and sweep write; docs/report.md says more.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  tessim report result\n  \
+                        tessim report studies/buses --out buses.html")]
+pub(crate) struct Args {
+    /// The folder, as --out of the other command named it
+    folder: PathBuf,
+    /// The page; - for standard output. A file that is there is replaced [default: the folder's
+    /// path with .html behind it]
+    #[arg(long, value_name = "PAGE.html")]
+    out: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
+    let folder = Folder::read(&args.folder)?;
+    let html = page::html(&folder, &counters::definitions())?;
+    let out = args.out.clone().unwrap_or_else(|| beside(&args.folder, &folder.name));
+    print::bytes_to_file_or_stdout(&out, |to| to.write_all(html.as_bytes()))?;
+    if quiet || out == Path::new("-") {
+        return Ok(());
+    }
+    print::print(&format!("{}\n", out.display()))
+}
+
+/// The folder's name with `.html` behind it, beside the folder.
+fn beside(folder: &Path, name: &str) -> PathBuf {
+    let name = format!("{name}.html");
+    match folder.file_name() {
+        Some(_) => folder.with_file_name(name),
+        // `.` and `..` have no name to put another in place of.
+        None => folder.join("..").join(name),
+    }
+}
