@@ -36,10 +36,9 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
 
 /// The folder's name with `.html` behind it, beside the folder.
 fn beside(folder: &Path, name: &str) -> PathBuf {
-    let name = format!("{name}.html");
     match folder.file_name() {
-        Some(_) => folder.with_file_name(name),
+        Some(name) => folder.with_file_name(format!("{}.html", name.display())),
         // `.` and `..` have no name to put another in place of.
-        None => folder.join("..").join(name),
+        None => folder.join("..").join(format!("{name}.html")),
     }
 }

@@ -33,6 +33,8 @@ const MARKS: [(Kind, &str); 4] = [
 pub struct Csv {
     /// Its name in the folder.
     pub file: String,
+    /// Where it is.
+    pub path: PathBuf,
     /// The names of its columns.
     pub header: Vec<String>,
     /// Its rows, as long as the header.
@@ -152,7 +154,7 @@ fn table(folder: &Path, name: &str) -> Result<Csv> {
         record.map(|r| r.iter().map(ToOwned::to_owned).collect()).map_err(|error| wrong(&error))
     });
     let rows = rows.collect::<Result<_>>()?;
-    Ok(Csv { file: name.to_owned(), header, rows })
+    Ok(Csv { file: name.to_owned(), path, header, rows })
 }
 
 /// Without the place, which goes in front.

@@ -154,7 +154,7 @@ fn number(text: &str) -> Value {
 
 fn columns<const N: usize>(csv: &Csv, names: [&str; N]) -> Result<[usize; N]> {
     csv.columns(names).ok_or_else(|| Error::Input {
-        file: csv.file.clone(),
+        file: csv.path.display().to_string(),
         place: Place::Line { line: 1, column: 0 },
         message: format!("found {}; expected columns {}", csv.header.join(","), names.join(",")),
     })

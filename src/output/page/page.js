@@ -81,7 +81,8 @@ const draw = (data, number, box) => {
     const [least, most] = [Math.min(0, ...values), Math.max(0, ...values)];
     const last = Math.max(1, data.frames.length - 1);
     const x = (frame) => left + (width - left - right) * frame / last;
-    const y = (value) => height - bottom - (height - top - bottom) * (value - least) / (most - least);
+    const tall = height - top - bottom;
+    const y = (value) => height - bottom - tall * (value - least) / (most - least);
     const step = stepFor(most - least);
     for (let k = Math.ceil(least / step); k * step <= most; k++) {
         const at = y(k * step);
@@ -101,7 +102,8 @@ const draw = (data, number, box) => {
         // A line ends where there is no value.
         let points = [];
         const end = () => {
-            if (points.length) svg.append(element("polyline", { points: points.join(" "), stroke }));
+            const line = { points: points.join(" "), stroke };
+            if (points.length) svg.append(element("polyline", line));
             points = [];
         };
         values.forEach((value, frame) => {
@@ -111,7 +113,8 @@ const draw = (data, number, box) => {
         end();
         if (!values.some((value) => value !== null)) return;
         const [at, from] = [top + 10 + 20 * unit, width - right + 14];
-        svg.append(element("line", { class: "key", x1: from, x2: from + 20, y1: at, y2: at, stroke }));
+        const key = { class: "key", x1: from, x2: from + 20, y1: at, y2: at, stroke };
+        svg.append(element("line", key));
         svg.append(element("text", { x: from + 26, y: at + 4 }, data.units[unit]));
     });
     box.replaceChildren(svg);
