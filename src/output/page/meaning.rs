@@ -144,16 +144,16 @@ pub(super) fn of_column(file: &str, name: &str) -> Option<&'static str> {
     let here = |of: &str| of == "*" || of == file;
     let mut known = COLUMNS.iter();
     let found = known.find(|(of, pattern, _)| here(of) && matches(pattern, name));
-    found.map(|(_, _, meaning)| *meaning).or_else(|| rate(file, name))
+    found.map(|(_, _, meaning)| *meaning).or_else(|| of_sweep(file, name))
 }
 
-/// The rates of `summary.json` that are columns of `points.csv` say themselves what they are.
-fn rate(file: &str, name: &str) -> Option<&'static str> {
+/// The other columns of a sweep: rates of `summary.json`, whose names say what they are, and keys.
+fn of_sweep(file: &str, name: &str) -> Option<&'static str> {
     match file {
         "points.csv" if name.contains("_per_") => {
             Some("a rate of summary.json: one over the other")
         }
-        "points.csv" | "sweep.csv" if name.contains('.') => Some("the configuration's key"),
+        "points.csv" | "sweep.csv" => Some("the configuration's key"),
         _ => None,
     }
 }

@@ -63,7 +63,9 @@ pub(super) fn numbers(
             });
             page.element("tbody", &[], |page| {
                 for number in numbers {
-                    let zero = number.values.iter().all(|v| v.parse().is_ok_and(|v: f64| v == 0.0));
+                    // A unit that lacks the number has no more of it than one that counts none.
+                    let none = |v: &String| v.is_empty() || v.parse().is_ok_and(|v: f64| v == 0.0);
+                    let zero = number.values.iter().all(none);
                     let class: &[_] = if zero { &[("class", "zero")] } else { &[] };
                     page.element("tr", class, |page| {
                         page.element("td", &[], |page| link(page, &number.name, None, known));
