@@ -4,7 +4,8 @@
 #   tests/all.sh                 about twenty minutes on two cores, most of it building
 #   tests/all.sh --long          the long campaigns too (TESSIM_LONG=1: tests scale their case counts)
 #   tests/all.sh --mutants       changes every constant of every kernel, one at a time; an hour
-#   tests/all.sh --browser       does recorded kernels again in headless Chromium
+#   tests/all.sh --browser       installs Chromium, does recorded kernels and drives pages in it; pages
+#                                without being asked where there is a Chromium
 #   tests/all.sh --fuzz SECONDS  then fuzzes each target for that long
 #
 # Tests that cannot run here print a line with SKIPPED and why; they are listed at the end. With CI=true
@@ -13,7 +14,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
-    sed -n '2,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    sed -n '2,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit "$1"
 }
 
@@ -79,6 +80,13 @@ if command -v dpkg >/dev/null && ! dpkg -s "${mesa[@]}" >/dev/null 2>&1; then
             "${mesa[@]}"; } >/dev/null || echo "apt-get cannot install Mesa"
     fi
 fi
+if [ "$browser" = yes ] && ! command -v chromium >/dev/null && [ "$(id -u)" = 0 ]; then
+    { apt-get update -qq && apt-get install -y -qq --no-install-recommends \
+        chromium; } >/dev/null || echo "apt-get cannot install chromium"
+fi
+if [ "$browser" = yes ] || command -v chromium >/dev/null; then
+    export TESSIM_BROWSER=1
+fi
 need cc "install a C compiler (Debian: gcc libc6-dev)"
 need cargo "install Rust 1.90 or newer from https://rustup.rs"
 need git "install git; a rule of tests/tidy.rs asks it for the tracked files"
@@ -98,10 +106,7 @@ smoke() {
 third_witness() {
     local work
     command -v node >/dev/null || { echo "SKIPPED third witness: no node"; return; }
-    if ! command -v chromium >/dev/null && [ "$(id -u)" = 0 ]; then
-        { apt-get update -qq && apt-get install -y -qq --no-install-recommends \
-            chromium; } >/dev/null || { echo "SKIPPED third witness: no chromium"; return; }
-    fi
+    command -v chromium >/dev/null || { echo "SKIPPED third witness: no chromium"; return; }
     work="$(mktemp -d)"
     npm install --silent --no-audit --no-fund --prefix "$work" playwright-core@1.65.1 &&
         TESSIM_RECORD="$work" cargo test --workspace --features gpu,parquet --release --test gpu records \

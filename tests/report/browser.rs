@@ -44,8 +44,14 @@ seen.errors = errors.join("; ");
 for (const key in seen) document.body.setAttribute("data-seen-" + key, seen[key]);
 </script>"##;
 
-/// What Chromium makes of a page, if it is here.
+/// What Chromium makes of a page, if `TESSIM_BROWSER` asks for it.
 fn driven(place: &Place, page: &str) -> Option<String> {
+    if std::env::var_os("TESSIM_BROWSER").is_none() {
+        println!(
+            "the page in a browser: only with TESSIM_BROWSER, which tests/all.sh --browser sets"
+        );
+        return None;
+    }
     let browser = std::env::var("CHROMIUM").unwrap_or_else(|_| "chromium".to_owned());
     // What goes wrong in the page's own script is caught, too.
     let watch = "<head><script>const errors = []; \
