@@ -86,6 +86,43 @@ fn a_search_finds_what_the_whole_grid_has_and_runs_less_of_it() {
 }
 
 /// Every rounding and overflow, formats so narrow that hardly anything of the picture is left.
+/// All four corners behind the eye, the rest before it: the corners say nothing of any format.
+#[test]
+fn a_search_rules_nothing_out_by_corners_that_are_not_seen() {
+    let corner = |k: usize| matches!(k, 0 | 3 | 12 | 15);
+    let point = |k: usize| format!("[{},{},{}]", k % 4, k / 4, if corner(k) { 60 } else { -60 });
+    let points: Vec<String> = (0..16).map(point).collect();
+    let text = format!(
+        "{{\"tessim\":1}}\n{{\"frame\":{{\"viewport\":[640,480],\"view\":[1,0,0,0,0,1,0,0,0,0,1,0,\
+         -1.5,-1.5,-5,1],\"projection\":[1.5,0,0,0,0,2,0,0,0,0,-1.01,-1,0,0,-0.1,0]}}}}\n\
+         {{\"points\":{{\"id\":0,\"xyz\":[{}]}}}}\n{{\"draw\":{{\"primitive\":\"patches\",\
+         \"points\":0,\"count\":1}}}}\n{{\"end\":{{}}}}\n",
+        points.join(",")
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("corner.jsonl");
+    fs::write(&path, text).unwrap();
+    let trace = Trace::open(&path).unwrap();
+    let commands: Vec<Command> = trace.map(|located| located.unwrap().command).collect();
+    let base = base(Unit::Hybrid, 8.0);
+    let axes = Axes {
+        width: vec![24, 32, 36],
+        guard: vec![4, 8],
+        reciprocal: vec![20, 32],
+        subpixel: vec![4, 8],
+        rounding: vec![None],
+        overflow: vec![Overflow::Saturate],
+    };
+    let find = |search| {
+        let options = Options { max_error: 500.0, search, ..options(axes.clone()) };
+        let study = precision::run(&commands, &base, &options, &|| {}).unwrap();
+        study.narrowest.map(|k| study.rows[k].formats)
+    };
+    let found = find(true);
+    assert!(found.is_some());
+    assert_eq!(found, find(false));
+}
+
 #[test]
 fn no_format_cracks_and_vertices_are_compared_to_say_so() {
     for (unit, name) in [(Unit::Hybrid, "teapot"), (Unit::Sfarti, "teacup")] {

@@ -31,7 +31,7 @@ pub(crate) struct Args {
     trace: PathBuf,
     #[command(flatten)]
     layered: Layered,
-    /// Bits of a position, 8..=48 [default: 12..32:2]
+    /// Bits of a position, 8..=48; above 40 give --guard, too [default: 12..32:2]
     #[arg(long, value_name = "LIST", value_parser = list)]
     width: Option<List>,
     /// Guard bits of the accumulators, 1..=52 [default: 1,4,8,12,20; none to sweep in sfarti]
@@ -147,11 +147,12 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let mut reader = Trace::open(&args.trace)?;
     let commands = reader.by_ref().map(|located| Ok(located?.command));
     let commands = commands.collect::<Result<Vec<Command>>>()?;
+    // First, for it is the shorter, and may find that there is nothing to compare on.
+    let compare = || args.compare(&commands, &base, quiet);
+    let compared = args.evaluators.then(|| pool.install(compare)).transpose()?;
     let steps = Steps::new(quiet, "points", points as u64);
     let study = pool.install(|| precision::run(&commands, &base, &options, &|| steps.step()))?;
     drop(steps);
-    let compare = || args.compare(&commands, &base, quiet);
-    let compared = args.evaluators.then(|| pool.install(compare)).transpose()?;
     let header = commands.into_iter().find_map(|command| match command {
         Command::Header(header) => Some(header),
         _ => None,

@@ -8,7 +8,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::iter;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tessim::config::{Config, Engine, Frames};
 use tessim::error::{Error, Result};
 use tessim::output::folder::ResultFolder;
@@ -104,6 +104,7 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
     let mut config = args.layered.configuration()?;
     config.engine = args.engine.unwrap_or(config.engine);
     args.refuse_a_frame_of_nothing(&config)?;
+    args.refuse_a_timeline_over_others()?;
     let pool = pool(args.threads)?;
     let reader = match args.only_frame {
         None => Trace::open(&args.trace)?,
@@ -142,6 +143,28 @@ impl Args {
             return Err(Error::Usage(
                 "--mesh writes into the result folder: give --out DIR too".to_owned(),
             ));
+        }
+        Ok(())
+    }
+
+    /// A timeline takes the place of what is there: not of the trace, nor of a result.
+    fn refuse_a_timeline_over_others(&self) -> Result<()> {
+        let canonical = |path: &Path| path.canonicalize().ok();
+        for file in &self.timeline {
+            let shown = file.display();
+            let parent = file.parent().filter(|p| !p.as_os_str().is_empty());
+            let parent = canonical(parent.unwrap_or(Path::new(".")));
+            let out = self.out.as_deref();
+            if out.is_some_and(|out| parent.is_some() && canonical(out) == parent) {
+                return Err(Error::Usage(format!(
+                    "--timeline {shown}: found in the result folder, expected a place beside it"
+                )));
+            }
+            if canonical(file).is_some_and(|file| canonical(&self.trace) == Some(file)) {
+                return Err(Error::Usage(format!(
+                    "--timeline {shown}: found the trace, expected another file"
+                )));
+            }
         }
         Ok(())
     }

@@ -6,6 +6,18 @@ use tessim::study::compare::roofline::{self, LEVEL_MAX};
 use tessim::trace::replay::Replay;
 
 #[test]
+fn triangles_that_reside_are_of_the_level_that_is_asked_for() {
+    let mut config = config(Unit::Triangles, Engine::Timed);
+    config.triangles.residency = tessim::config::Residency::Discrete;
+    let mut trace = Replay::open(&trace("fan")).unwrap();
+    let rows = roofline::run(&mut trace, &[config]).unwrap();
+    let patches = rows[0].triangles / 2;
+    for row in &rows {
+        assert_eq!(row.triangles, 2 * patches * u64::from(row.level).pow(2), "{}", row.level);
+    }
+}
+
+#[test]
 fn no_block_is_busier_than_the_run_is_long_and_the_busiest_binds() {
     let configs = Unit::ALL.map(|unit| {
         let mut config = config(unit, Engine::None);

@@ -40,6 +40,8 @@ fn a_malformed_study_is_refused_with_its_line_and_leaves_nothing() {
         ("[[list]]\nunit = 3", "study.toml:3:8: unit: found 3, expected a string"),
         ("[[list]]\nenginge = \"none\"", "study.toml:3:1: unknown key `enginge`; did you mean"),
         ("config = \"missing.toml\"", "missing.toml: No such file"),
+        ("traces = [\"-\"]", "study.toml:1:11: traces: found standard input, expected the path"),
+        ("[[list]]\ntrace = \"-\"", "study.toml:3:9: trace: found standard input"),
     ] {
         // In most of them the study begins in the second line.
         let bare = study.is_empty() || study.starts_with("trace");

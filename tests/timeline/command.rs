@@ -93,6 +93,25 @@ fn what_cannot_be_is_refused_and_nothing_is_left_behind() {
 }
 
 #[test]
+fn neither_the_trace_nor_a_result_gives_way_to_a_timeline() {
+    let folder = tempfile::tempdir().unwrap();
+    let trace = folder.path().join("in.json");
+    let fan = Path::new(env!("CARGO_MANIFEST_DIR")).join("traces/fan.jsonl");
+    fs::copy(fan, &trace).unwrap();
+    let before = fs::read(&trace).unwrap();
+    let trace = trace.to_str().unwrap();
+    let (code, said) = tessim(&folder, trace, &["--timeline", "in.json"]);
+    assert_eq!((code, said.contains("found the trace")), (2, true), "{said}");
+    assert_eq!(fs::read(trace).unwrap(), before);
+    let out = ["--engine", "timed", "--out", "result"];
+    assert_eq!(tessim(&folder, trace, &out).0, 0);
+    let within = ["--timeline", "result/summary.json"];
+    let (code, said) = tessim(&folder, trace, &[&out[..], &within].concat());
+    assert_eq!((code, said.contains("expected a place beside it")), (2, true), "{said}");
+    assert_eq!(tessim(&folder, trace, &out).0, 0, "the result is one still");
+}
+
+#[test]
 fn a_run_too_long_for_a_timeline_asks_for_a_window_and_gets_one() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("cups.jsonl");

@@ -5,7 +5,9 @@
 //! row. Unit `esc` has the level of resolution with the fewest segments, 3 (L + 1), that are not
 //! fewer than the level, so nothing above 48.
 
-use crate::config::{Config, Criterion, Engine, FactorPolicy, LevelPolicy, LevelScope, Unit};
+use crate::config::{
+    Config, Criterion, Engine, FactorPolicy, LevelPolicy, LevelScope, Residency, Unit,
+};
 use crate::error::Result;
 use crate::output::table::{Bound, bound};
 use crate::sink::NoMesh;
@@ -95,6 +97,10 @@ fn at(config: &Config, level: u32) -> Option<Config> {
     (config.level.level, config.level.pixels) = (Some(level.into()), None);
     (config.level.min_level, config.level.max_level) = (Some(1.0), Some(128.0));
     config.hull.policy = FactorPolicy::Criterion;
+    if config.unit == Unit::Triangles && config.triangles.resides() {
+        // A mesh of every level is there, and takes no power of two.
+        (config.triangles.residency, config.triangles.level) = (Residency::Static, level);
+    }
     if config.unit == Unit::Esc {
         let resolution = level.div_ceil(3) - 1;
         let esc = &mut config.esc;

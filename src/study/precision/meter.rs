@@ -105,11 +105,12 @@ impl Measured {
     /// without its place or farther from it than so many pixels, and there are no cracks.
     #[must_use]
     pub fn serves(&self, max_error: f64) -> bool {
-        self.reported.count > 0
-            && self.lost == 0
-            && self.unplaced == 0
-            && self.cracks == 0
-            && self.largest() <= max_error
+        self.reported.count > 0 && self.may_serve(max_error)
+    }
+
+    /// Whether nothing that was measured speaks against them.
+    pub(super) fn may_serve(&self, max_error: f64) -> bool {
+        self.lost == 0 && self.unplaced == 0 && self.cracks == 0 && self.largest() <= max_error
     }
 }
 
@@ -189,18 +190,23 @@ impl<'a> Meter<'a> {
 
     fn positions(&mut self, mesh: &PatchMesh<'_>, truth: &Truth, at: &At<'_>) {
         for (k, screen) in mesh.screen.iter().enumerate() {
-            let Some(want) = at.reported[k] else { continue };
+            let got = [screen.x, screen.y].map(|c| f64::from(c) * at.unit);
+            let Some(want) = at.reported[k] else {
+                // At the band's ends either may be right.
+                let well_inside = got.iter().all(|c| c.abs() < 0.5 * emit::BAND);
+                self.measured.unplaced += u64::from(screen.divided && well_inside);
+                continue;
+            };
             if !screen.divided {
                 self.measured.unplaced += 1;
                 continue;
             }
-            let got = [screen.x, screen.y].map(|c| f64::from(c) * at.unit);
             let off = |want: [f64; 2]| (got[0] - want[0]).hypot(got[1] - want[1]);
             self.measured.reported.take(off(want));
             let exact = at.exact.get(k).map(|&[u, v]| at.pixel(truth, u, v));
-            match exact.unwrap_or(Some(want)) {
-                Some(exact) => self.measured.exact.take(off(exact)),
-                None => self.measured.exact.take(0.0), // as good as behind the eye
+            // Without a place, behind the eye or out of the band, there is nothing to be off.
+            if let Some(exact) = exact.unwrap_or(Some(want)) {
+                self.measured.exact.take(off(exact));
             }
         }
     }

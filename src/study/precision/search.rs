@@ -52,17 +52,22 @@ pub(super) fn narrowest(
 ) -> Result<Found<Row>> {
     let costs: Vec<_> = grid.iter().map(|formats| cost(formats, bench)).collect();
     // The first point with the same positions, screen coordinates and modes.
-    let group = |k: usize| {
-        let alike = |f: &Formats| Formats { guard: 1, reciprocal: 32, ..*f };
-        grid.iter().position(|other| alike(other) == alike(&grid[k])).unwrap_or(k)
+    let mut firsts: Vec<(Formats, usize)> = Vec::new();
+    let group = |(k, formats): (usize, &Formats)| {
+        let alike = Formats { guard: 1, reciprocal: 32, ..*formats };
+        let known = firsts.iter().find(|(other, _)| *other == alike).map(|(_, first)| *first);
+        known.unwrap_or_else(|| {
+            firsts.push((alike, k));
+            k
+        })
     };
-    let groups: Vec<usize> = (0..grid.len()).map(group).collect();
+    let groups: Vec<usize> = grid.iter().enumerate().map(group).collect();
     let corners = |k: usize| -> Result<bool> {
         let mut config = grid[k].config(bench.base);
         config.level.criterion = Some(Criterion::Fixed);
         (config.level.level, config.level.pixels) = (Some(1.0), None);
         config.level.min_level = Some(1.0);
-        Ok(bench.measure(&config, 0)?.serves(max_error))
+        Ok(bench.measure(&config, 0)?.may_serve(max_error))
     };
     let whole = |k: usize| {
         let row = measure(&grid[k])?;

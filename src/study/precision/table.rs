@@ -109,7 +109,8 @@ pub fn text(study: &Study, title: &str) -> String {
         say("each format by itself, the others at their widest\n");
         say(&markdown::table(&COLUMNS, 2, &by_itself(&study.rows)));
     }
-    say("the front: no other point is as good in bits, area and error\n");
+    let among = if measured < grid { "no other of those measured" } else { "no other point" };
+    say(&format!("the front: {among} is as good in bits, area and error\n"));
     let front: Vec<_> = study.front.iter().map(|&k| point(&study.rows[k])).collect();
     say(&markdown::table(&POINT, 0, &front));
     match study.narrowest {

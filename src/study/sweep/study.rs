@@ -74,7 +74,7 @@ impl Study {
         let base = at.string(&table, "config")?.map(|name| path.with_file_name(name));
         let base = base.map(|path| text_of(&path).map(|text| (path, text)));
         let mut study = Self {
-            traces: at.strings(&table, "traces")?.unwrap_or_default(),
+            traces: at.traces(&table)?,
             presets: presets.unwrap_or_else(|| vec![Preset::default()]),
             units: units.unwrap_or_else(|| vec![Unit::default()]),
             base: base.transpose()?,
@@ -202,7 +202,7 @@ impl Text<'_> {
             let mut case = Case::default();
             for leaf in self.leaves("list", entry)? {
                 match leaf.path.as_str() {
-                    "trace" => case.trace = Some(self.name(leaf.value, "trace")?),
+                    "trace" => case.trace = Some(self.trace(leaf.value, "trace")?),
                     "preset" => {
                         let names = Preset::ALL.map(Preset::name);
                         let named = self.named(leaf.value, "preset", Preset::named, &names)?;

@@ -92,9 +92,20 @@ impl<'t> Text<'t> {
         table.get(name).map(|value| self.name(value, name)).transpose()
     }
 
-    /// The strings of a list at the top.
-    pub(super) fn strings(&self, table: &DeTable<'_>, name: &str) -> Result<Option<Vec<String>>> {
-        self.each(table, name, |value| self.name(value, name))
+    /// The name of a trace, which is read more than once: no standard input.
+    pub(super) fn trace(&self, value: &Spanned<DeValue<'_>>, what: &str) -> Result<String> {
+        let name = self.name(value, what)?;
+        if name == "-" {
+            let message = format!("{what}: found standard input, expected the path of a file");
+            return Err(self.error(value.span().start, message));
+        }
+        Ok(name)
+    }
+
+    /// The names of the traces at the top, if any.
+    pub(super) fn traces(&self, table: &DeTable<'_>) -> Result<Vec<String>> {
+        let names = self.each(table, "traces", |value| self.trace(value, "traces"))?;
+        Ok(names.unwrap_or_default())
     }
 
     /// What the names of a list at the top stand for.
