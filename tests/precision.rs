@@ -19,7 +19,7 @@ fn path(name: &str) -> PathBuf {
 }
 
 fn commands(name: &str) -> Vec<Command> {
-    let trace = Trace::open(&path(name)).unwrap();
+    let trace = Trace::open(path(name)).unwrap();
     trace.map(|located| located.unwrap().command).collect()
 }
 

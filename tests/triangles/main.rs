@@ -2,6 +2,8 @@
 //! residency, index, topology and cache: laws that hold of all of them, counts by hand, levels of
 //! detail beside what the other units ask for, and both engines.
 
+#![expect(clippy::unwrap_used, reason = "all of it is test code, helpers too")]
+
 #[allow(dead_code, reason = "the engines' tests use the rest")]
 #[path = "../engines/runs.rs"]
 mod runs;

@@ -138,7 +138,7 @@ mod tests {
             let costs: Vec<u64> = (0..points).map(|_| random.bits() % 64).collect();
             let groups: Vec<usize> = (0..points).map(|k| k - k % 5).collect();
             let often = 1 + random.bits() % 60;
-            let rule: Vec<bool> = (0..points).map(|_| random.bits() % 3 > 0).collect();
+            let rule: Vec<bool> = (0..points).map(|_| !random.bits().is_multiple_of(3)).collect();
             let serves: Vec<bool> =
                 groups.iter().map(|&g| rule[g] && random.bits().is_multiple_of(often)).collect();
             let want = (0..points).filter(|&k| serves[k]).min_by_key(|&k| (costs[k], k));
