@@ -138,7 +138,7 @@ mod tests {
         let part = |name: &str| *parts.iter().find(|p| is(p, name)).expect("a heading");
         // Columns are as wide as their widest cell, which names a block.
         let line = |label: &str, [first, second, ratio]: [&str; 3]| {
-            format!("  {label:<40}  {first:>13}  {second:>13}  {ratio:>5}")
+            format!("  {label:<39}  {first:>13}  {second:>13}  {ratio:>5}")
         };
         for (heading, label, cells) in [
             ("bytes over the link", "control points", ["1 000", "0", "0.00"]),
