@@ -2,8 +2,8 @@
 //! side.
 //!
 //! In come a trace and a configuration a unit; out come their reports, in order, with what their
-//! triangles look like on the screen ([`gauge`]); from them every number over the run and in each
-//! frame ([`mod@series`]), a table for people, with ratios to the first unit, and CSVs. `roofline`
+//! triangles look like on the screen (`gauge`); from them every number over the run and in each
+//! frame (`series`), a table for people, with ratios to the first unit, and CSVs. `roofline`
 //! asks what binds each unit at each level. The units run one after another: a run's engine is
 //! sequential anyway, and memory stays that of one run.
 //!

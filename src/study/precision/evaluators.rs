@@ -1,4 +1,4 @@
-//! Evaluators: de Casteljau, forward differences and the power basis [N][B][M]^T by themselves, at
+//! Evaluators: de Casteljau, forward differences and the power basis `[N][B][M]^T` by themselves, at
 //! equal segments. The patches of a trace come in, out comes how far from the true surface each
 //! evaluator puts their points, by bits of a position.
 //!
