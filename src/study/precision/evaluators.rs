@@ -1,5 +1,5 @@
-//! Evaluators: de Casteljau, forward differences and the power basis `[N][B][M]^T` by themselves, at
-//! equal segments. The patches of a trace come in, out comes how far from the true surface each
+//! Evaluators: de Casteljau, forward differences and the power basis `[N][B][M]^T` by themselves,
+//! at equal segments. The patches of a trace come in, out comes how far from the true surface each
 //! evaluator puts their points, by bits of a position.
 //!
 //! Control points are those in f64, rounded once to the position format; what comes out is
