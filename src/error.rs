@@ -16,6 +16,15 @@ pub enum Place {
     Byte(u64),
 }
 
+/// Of known names the one that comes nearest to `name`: the first of equals, so that the answer
+/// does not depend on how ties are broken. `None` where nothing is known.
+#[must_use]
+pub fn nearest<K: AsRef<str>>(name: &str, known: impl IntoIterator<Item = K>) -> Option<K> {
+    let rated = known.into_iter().map(|known| (strsim::jaro_winkler(name, known.as_ref()), known));
+    let nearest = rated.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    nearest.map(|(_, known)| known)
+}
+
 /// Every error of the library.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {

@@ -5,7 +5,7 @@ use rtl_model::counter::standard::{self, ELAPSED, Quantity, Stage};
 use rtl_model::counter::{Block, DECLARATIONS, Measure};
 use std::fmt::Write;
 use tessim::config::{Config, Unit};
-use tessim::error::{Error, Result};
+use tessim::error::{Error, Result, nearest};
 use tessim::output::page::Definition;
 use tessim::unit::arithmetic::PIECES;
 use tessim::unit::chain;
@@ -141,12 +141,8 @@ impl Entry {
 fn unknown(name: &str, entries: &[Entry]) -> Error {
     let blocks = entries.iter().map(|e| e.block.name().to_owned());
     let own = entries.iter().map(|e| e.name.clone());
-    let nearest = blocks
-        .chain(entries.iter().map(Entry::full_name))
-        .chain(own)
-        .map(|known| (strsim::jaro_winkler(name, &known), known))
-        .reduce(|best, next| if next.0 > best.0 { next } else { best })
-        .map_or_else(String::new, |(_, known)| known);
+    let known = blocks.chain(entries.iter().map(Entry::full_name)).chain(own);
+    let nearest = nearest(name, known).unwrap_or_default();
     let name: String = name.chars().take(200).collect();
     Error::Usage(format!("unknown counter `{name}`; did you mean `{nearest}`?"))
 }

@@ -5,6 +5,7 @@
 //! PCIe follow from transfers a second and the line code. Sizes of packets are assumptions about
 //! what hosts of the time set up.
 
+use crate::error::nearest;
 use serde::{Deserialize, Serialize};
 
 /// Greatest bandwidth in 10^6 bytes a second.
@@ -149,12 +150,7 @@ impl Bus {
     /// The name that comes nearest to `name`.
     #[must_use]
     pub fn nearest(name: &str) -> String {
-        let distance = |bus: &String| strsim::jaro_winkler(name, bus);
-        // The first of equals, so that the answer does not depend on how ties are broken.
-        let nearer = |best: String, bus: String| {
-            if distance(&bus) > distance(&best) { bus } else { best }
-        };
-        Self::all().map(Self::name).reduce(nearer).expect("there are buses")
+        nearest(name, Self::all().map(Self::name)).expect("there are buses")
     }
 
     /// Bandwidth towards the device, 10^6 bytes a second, to the nearest below (AGP, as it is

@@ -19,7 +19,7 @@ mod series;
 mod table;
 
 use crate::config::{Config, Unit};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, nearest};
 use crate::report::Report;
 use crate::trace::command::{Command, Header};
 use crate::trace::open::Trace;
@@ -79,9 +79,7 @@ pub fn units(names: &str) -> Result<Vec<Unit>> {
 
 fn unknown(name: &str) -> String {
     let known = Unit::ALL.map(Unit::name);
-    let rated = known.into_iter().chain([ALL]).map(|k| (strsim::jaro_winkler(name, k), k));
-    let nearest = rated.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    let nearest = nearest.map_or(ALL, |(_, known)| known);
+    let nearest = nearest(name, known.into_iter().chain([ALL])).unwrap_or(ALL);
     let name: String = name.chars().take(200).collect();
     let known = known.join(", ");
     format!("--units: unknown unit `{name}`; did you mean `{nearest}`? (units: {known}, or {ALL})")

@@ -36,11 +36,16 @@ pub fn uniform_triangles(level: u32) -> u64 {
 /// Every patch, on unit `esc` at one level of resolution: every candidate inserted.
 fn uniform(base: &Config, level: u32) -> Config {
     let mut config = all_patches(base, Unit::Esc);
+    fix_level(&mut config, level);
+    config
+}
+
+/// Gives every patch of unit `esc` one level of resolution, with every candidate inserted.
+pub(super) fn fix_level(config: &mut Config, level: u32) {
     let esc = &mut config.esc;
     (esc.level, esc.scope) = (LevelPolicy::Fixed, LevelScope::Patch);
     (esc.fixed_level, esc.level_max) = (level, level);
     esc.mu = 0.0;
-    config
 }
 
 /// On `unit`, without an engine, and nothing clipped or culled.

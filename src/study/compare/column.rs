@@ -66,11 +66,6 @@ impl<'a> Column<'a> {
         ratio(sums[0], sums[1]).map(Cell::Rate)
     }
 
-    /// Bytes that stay in device memory, where the unit has any.
-    pub(super) fn resident(&self) -> Option<Cell> {
-        self.number("memory", "footprint").filter(|_| self.has(Block::Memory))
-    }
-
     /// Where nothing is removed, every patch that is drawn is tessellated.
     pub(super) fn tessellated(&self) -> Option<Cell> {
         let all = || {
@@ -113,31 +108,29 @@ impl<'a> Column<'a> {
 
     /// A share of the cycles of the block that is used most.
     pub(super) fn share(&self, of: impl Fn(&StageTimes) -> u64) -> Option<Cell> {
-        let times = self.busiest()?;
-        ratio(of(times), times.total).map(percent)
+        let (k, stages) = self.busiest()?;
+        ratio(of(&stages[k]), stages[k].total).map(percent)
     }
 
     /// Of the blocks before and behind the one that is used most, the one that is held up for the
     /// greatest part of its cycles, and that part.
     pub(super) fn waits(&self, side: Side) -> Option<[Cell; 2]> {
-        let report = &self.run.report;
-        let binds = bound(report, &self.whole)?.block;
-        let k = report.chain.iter().position(|stage| stage.block == binds)?;
-        let stages = &self.whole.times.as_ref()?.stages;
+        let (k, stages) = self.busiest()?;
         let (range, of): (_, fn(&StageTimes) -> u64) = match side {
             Side::Before => (0..k, |t| t.blocked + t.blocked_by_order),
             Side::Behind => (k + 1..stages.len(), |t| t.starved + t.starved_by_port),
         };
         let shares = range.filter_map(|i| Some((i, ratio(of(&stages[i]), stages[i].total)?)));
         let (i, share) = shares.reduce(|best, next| if next.1 > best.1 { next } else { best })?;
-        let name = report.chain[i].block.name();
+        let name = self.run.report.chain[i].block.name();
         Some([Cell::Word(name.to_owned()), percent(share)])
     }
 
-    fn busiest(&self) -> Option<&StageTimes> {
+    /// Which block is used most, and the times of all.
+    fn busiest(&self) -> Option<(usize, &[StageTimes])> {
         let binds = bound(&self.run.report, &self.whole)?.block;
         let k = self.run.report.chain.iter().position(|stage| stage.block == binds)?;
-        self.whole.times.as_ref()?.stages.get(k)
+        Some((k, &self.whole.times.as_ref()?.stages))
     }
 }
 

@@ -28,8 +28,6 @@ pub struct Seen {
     pub triangles: Triangles,
     /// Pixels that some triangle covers.
     pub pixels: u64,
-    /// Pixels of the viewport.
-    pub viewport: u64,
     /// How far the surfaces of tessellated patches are from their triangles; without samples where
     /// none were asked for.
     pub deviation: Deviation,
@@ -42,7 +40,6 @@ impl Seen {
         Self {
             triangles: self.triangles.with(&other.triangles),
             pixels: self.pixels + other.pixels,
-            viewport: self.viewport + other.viewport,
             deviation: self.deviation.with(&other.deviation),
         }
     }
@@ -149,9 +146,8 @@ impl<'a> Gauge<'a> {
     fn close(&mut self) {
         self.measure();
         if let Some(open) = self.open.take() {
-            let [width, height] = open.cover.viewport().map(u64::from);
             let pixels = open.cover.pixels();
-            self.frames.push(Seen { pixels, viewport: width * height, ..open.seen });
+            self.frames.push(Seen { pixels, ..open.seen });
             self.scenes.borrow_mut().forget(open.info.number);
         }
     }

@@ -193,7 +193,7 @@ fn bytes(lines: &mut Lines<'_>) {
     lines.each("read", |run| run.sum(Block::Memory, "bytes.read."));
     lines.each("written", |run| run.sum(Block::Memory, "bytes.written."));
     lines.total("wasted in bursts", Block::Memory, C::MemoryWasted);
-    lines.each("footprint", |run| run.resident());
+    lines.number("footprint", "memory", "footprint");
     if lines.any_has(Block::Hull) {
         lines.heading("bytes of hull and domain shader");
         lines.total("hull shader, in", Block::Hull, C::HullBytesIn);

@@ -5,12 +5,11 @@
 //! row. Unit `esc` has the level of resolution with the fewest segments, 3 (L + 1), that are not
 //! fewer than the level, so nothing above 48.
 
-use crate::config::{
-    Config, Criterion, Engine, FactorPolicy, LevelPolicy, LevelScope, Residency, Unit,
-};
+use crate::config::{Config, Criterion, Engine, FactorPolicy, Residency, Unit};
 use crate::error::Result;
 use crate::output::table::{Bound, bound};
 use crate::sink::NoMesh;
+use crate::study::esc;
 use crate::study::plot::{self, Chart, Names, Series};
 use crate::trace::command::Command;
 use crate::trace::replay::Replay;
@@ -103,11 +102,8 @@ fn at(config: &Config, level: u32) -> Option<Config> {
     }
     if config.unit == Unit::Esc {
         let resolution = level.div_ceil(3) - 1;
-        let esc = &mut config.esc;
-        (esc.level, esc.scope) = (LevelPolicy::Fixed, LevelScope::Patch);
-        (esc.fixed_level, esc.level_max) = (resolution, resolution);
-        esc.mu = 0.0;
-        return (resolution <= crate::study::esc::work::LEVEL_MAX).then_some(config);
+        esc::fix_level(&mut config, resolution);
+        return (resolution <= esc::work::LEVEL_MAX).then_some(config);
     }
     Some(config)
 }

@@ -3,7 +3,7 @@
 
 use crate::config::keys::Key;
 use crate::config::layers::{Placed, place, snippet};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, nearest};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Value};
 
@@ -29,9 +29,7 @@ impl<'t> Text<'t> {
 
     /// A name that nothing has at this place, and the one that was probably meant.
     pub(super) fn unknown(&self, offset: usize, found: &str, known: &[&str]) -> Error {
-        let rated = known.iter().map(|known| (strsim::jaro_winkler(found, known), *known));
-        let nearest = rated.reduce(|best, next| if next.0 > best.0 { next } else { best });
-        let nearest = nearest.map_or("", |(_, known)| known);
+        let nearest = nearest(found, known).map_or("", |known| *known);
         let (found, all) = (snippet(found), known.join(", "));
         let message = format!("unknown `{found}`; did you mean `{nearest}`? (known: {all})");
         self.error(offset, message)
