@@ -6,6 +6,7 @@
 //! world, is the deviation, and between their projections, in pixels, that on the screen. The mesh
 //! is the one that the hardware made, its roundings included.
 
+use super::nearest::Facets;
 use crate::golden::{Real, emit, evaluate};
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rtl_model::patch::Triangle;
@@ -145,140 +146,6 @@ fn inside(at: DVec2, place: &Place) -> bool {
     (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y)
 }
 
-/// Facets that follow one another in a mesh, and so lie side by side, under one ball.
-const CLUSTER: usize = 16;
-
-/// Triangles, among which the nearest is to be found.
-struct Facets {
-    all: Vec<Facet>,
-    /// A ball round each.
-    balls: Vec<Ball>,
-    /// A ball round each [`CLUSTER`] of them.
-    clusters: Vec<Ball>,
-}
-
-impl Facets {
-    fn new(triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
-        let all: Vec<Facet> = triangles.map(Facet::new).collect();
-        let balls: Vec<Ball> = all.iter().map(|facet| Ball::round(&facet.corners)).collect();
-        let clusters = balls.chunks(CLUSTER).map(Ball::round_balls).collect();
-        Self { all, balls, clusters }
-    }
-
-    /// The nearest point of all facets. `last` is the facet that it was on before: a good first
-    /// guess.
-    fn nearest(&self, p: DVec3, last: &mut usize) -> DVec3 {
-        let mut best = self.all[*last].nearest(p);
-        let mut least = best.distance(p);
-        let mut offer = |k: usize, least: &mut f64| {
-            let candidate = self.all[k].nearest(p);
-            let distance = candidate.distance(p);
-            if distance < *least {
-                (best, *least, *last) = (candidate, distance, k);
-            }
-        };
-        // A better one: the closer the guess, the fewer facets may hold something nearer.
-        let first = CLUSTER * closest(&self.clusters, p);
-        let members = &self.balls[first..self.balls.len().min(first + CLUSTER)];
-        offer(first + closest(members, p), &mut least);
-        for (k, (members, cluster)) in self.balls.chunks(CLUSTER).zip(&self.clusters).enumerate() {
-            if cluster.may_be_within(least, p) {
-                for (i, ball) in members.iter().enumerate() {
-                    if ball.may_be_within(least, p) {
-                        offer(CLUSTER * k + i, &mut least);
-                    }
-                }
-            }
-        }
-        best
-    }
-}
-
-/// Which of the balls has its centre nearest to `p`, the first of equals.
-fn closest(balls: &[Ball], p: DVec3) -> usize {
-    let distances = balls.iter().map(|ball| ball.centre.distance_squared(p));
-    let least = |best: (usize, f64), next: (usize, f64)| if next.1 < best.1 { next } else { best };
-    distances.enumerate().reduce(least).map_or(0, |(k, _)| k)
-}
-
-/// All points that are as near to the centre as the radius.
-#[derive(Clone, Copy, Debug)]
-struct Ball {
-    centre: DVec3,
-    radius: f64,
-}
-
-impl Ball {
-    /// Round a triangle, from its centroid.
-    fn round(corners: &[DVec3; 3]) -> Self {
-        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        let radius = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
-        Self { centre, radius }
-    }
-
-    /// Round all of some balls, at least one.
-    fn round_balls(balls: &[Self]) -> Self {
-        let centre = balls.iter().map(|ball| ball.centre).sum::<DVec3>() / balls.len() as f64;
-        let reach = |ball: &Self| ball.centre.distance(centre) + ball.radius;
-        Self { centre, radius: balls.iter().map(reach).fold(0.0, f64::max) }
-    }
-
-    /// Whether some point of the ball may be nearer to `p` than `distance`.
-    fn may_be_within(&self, distance: f64, p: DVec3) -> bool {
-        let reach = distance + self.radius;
-        self.centre.distance_squared(p) < reach * reach
-    }
-}
-
-/// A triangle.
-#[derive(Clone, Copy, Debug)]
-struct Facet {
-    corners: [DVec3; 3],
-    /// Products of its sides from corner 0, and one over the square of twice its area: 0 without
-    /// area.
-    gram: [f64; 3],
-    inverse: f64,
-}
-
-impl Facet {
-    fn new(corners: [DVec3; 3]) -> Self {
-        let [a, b, c] = corners;
-        let [along, up] = [b - a, c - a];
-        let gram = [along.dot(along), along.dot(up), up.dot(up)];
-        let square = along.cross(up).length_squared();
-        let inverse = if square > 0.0 { square.recip() } else { 0.0 };
-        Self { corners, gram, inverse }
-    }
-
-    /// Its point that is nearest to `p`: the foot of the perpendicular, if that is inside, else on
-    /// one of the sides. A triangle without area has sides only.
-    fn nearest(&self, p: DVec3) -> DVec3 {
-        let [a, b, c] = self.corners;
-        let (along, up) = (b - a, c - a);
-        let [d, e] = [(p - a).dot(along), (p - a).dot(up)];
-        let [aa, ab, bb] = self.gram;
-        let (s, t) = ((bb * d - ab * e) * self.inverse, (aa * e - ab * d) * self.inverse);
-        if self.inverse > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
-            return a + along * s + up * t;
-        }
-        let sides = [on_side(a, b, p), on_side(b, c, p), on_side(c, a, p)];
-        let [d, e, f] = sides.map(|q| q.distance_squared(p));
-        if d <= e && d <= f {
-            sides[0]
-        } else if e <= f {
-            sides[1]
-        } else {
-            sides[2]
-        }
-    }
-}
-
-fn on_side(a: DVec3, b: DVec3, p: DVec3) -> DVec3 {
-    let along = b - a;
-    let length = along.length_squared();
-    if length == 0.0 { a } else { a + along * ((p - a).dot(along) / length).clamp(0.0, 1.0) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -364,31 +231,5 @@ mod tests {
         let [all, seen] = [all, seen].map(|place| patch(&points, &lower, &place));
         assert_eq!((all.samples, seen.samples), (81, 4 * 8));
         assert!((seen.largest_pixels - 18.75).abs() < 1e-9, "{seen:?}");
-    }
-
-    #[test]
-    fn clusters_find_what_looking_at_every_facet_finds() {
-        let wave = |u: f64, v: f64| [u, v, (9.0 * u).sin() * (7.0 * v).cos(), 1.0];
-        let mesh = grid(9, wave);
-        let corner = |v: u16| DVec4::from(mesh.vertices[usize::from(v)]).truncate();
-        let facets = Facets::new(mesh.triangles.iter().map(|t| t.map(corner)));
-        assert!(facets.clusters.len() == 11 && !facets.all.len().is_multiple_of(CLUSTER));
-        let mut last = 0;
-        for k in 0..500_u32 {
-            let at = |prime: u32| f64::from(k * prime % 101) / 80.0 - 0.1;
-            let p = DVec3::new(at(7), at(31), at(59));
-            let found = facets.nearest(p, &mut last).distance(p);
-            let all = facets.all.iter().map(|facet| facet.nearest(p).distance(p));
-            assert_eq!(found, all.fold(f64::INFINITY, f64::min), "{p}");
-        }
-    }
-
-    #[test]
-    fn triangles_without_area_are_segments_and_points() {
-        let [a, b] = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0)];
-        let p = DVec3::new(1.5, 1.0, 0.0);
-        assert_eq!(Facet::new([a, b, a]).nearest(p), DVec3::new(1.5, 0.0, 0.0));
-        assert_eq!(Facet::new([b, b, b]).nearest(p), b);
-        assert_eq!(Facet::new([a, b, a]).nearest(DVec3::new(-3.0, 1.0, 0.0)), a);
     }
 }

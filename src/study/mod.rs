@@ -14,6 +14,7 @@ pub mod energy;
 pub mod esc;
 mod markdown;
 pub mod motion;
+mod nearest;
 #[cfg(feature = "gpu")]
 pub mod picture;
 mod plot;
