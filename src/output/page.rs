@@ -47,6 +47,10 @@ pub fn html(folder: &Folder, definitions: &[Definition]) -> Result<String> {
                 "meta",
                 &[("name", "viewport"), ("content", "width=device-width, initial-scale=1")],
             );
+            // Nothing comes from anywhere, whatever is on the page.
+            let policy = "default-src 'none'; img-src data:; \
+                          style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+            page.open("meta", &[("http-equiv", "Content-Security-Policy"), ("content", policy)]);
             page.texts("title", &[], &format!("{}: {}", folder.name, title(folder.kind)));
             page.code("style", include_str!("page/page.css"));
         });
@@ -89,8 +93,9 @@ fn heading(page: &mut Page, folder: &Folder) {
         page.texts("h1", &[], &folder.name);
         page.texts("p", &[("class", "kind")], title(folder.kind));
         page.element("dl", &[("class", "facts")], |page| {
-            let said = folder.summaries.iter().flat_map(facts);
-            for (name, value) in said.filter(|(_, value)| !value.is_empty()) {
+            let said = folder.summaries.iter().flat_map(|summary| facts(summary, folder.kind));
+            for (name, value) in said.chain(of_sweep(folder)).filter(|(_, value)| !value.is_empty())
+            {
                 page.texts("dt", &[], &name);
                 page.texts("dd", &[], &value);
             }
@@ -98,8 +103,9 @@ fn heading(page: &mut Page, folder: &Folder) {
     });
 }
 
-/// What a summary says of its origin.
-fn facts(summary: &Value) -> Vec<(String, String)> {
+/// What a summary says of its origin. That of a sweep's point stands for all of the same trace, and
+/// so says nothing of its own unit and frames.
+fn facts(summary: &Value, kind: Kind) -> Vec<(String, String)> {
     let text = |value: &Value| match value {
         Value::String(text) => text.clone(),
         Value::Null => String::new(),
@@ -113,6 +119,9 @@ fn facts(summary: &Value) -> Vec<(String, String)> {
         facts.push((format!("file {}", text(&file["name"])), text(&file["sha256"])));
     }
     facts.push(("tessim".to_owned(), text(&summary["tessim"])));
+    if kind == Kind::Sweep {
+        return facts;
+    }
     let units = summary["units"].as_array().into_iter().flatten();
     let units: Vec<_> = units.map(|unit| text(&unit["unit"])).collect();
     facts.push(("units".to_owned(), units.join(", ")));
@@ -122,15 +131,33 @@ fn facts(summary: &Value) -> Vec<(String, String)> {
     facts
 }
 
+/// What the points of a sweep have come to, and the units that they are of.
+fn of_sweep(folder: &Folder) -> Vec<(String, String)> {
+    let points = &folder.tables[0];
+    let Some([state, unit]) =
+        points.columns(["state", "unit"]).filter(|_| folder.kind == Kind::Sweep)
+    else {
+        return Vec::new();
+    };
+    let mut units: Vec<_> = points.rows.iter().map(|row| row[unit].as_str()).collect();
+    units.sort_unstable();
+    units.dedup();
+    let failed = points.rows.iter().filter(|row| row[state] == "failed").count();
+    let points = format!("{} ({failed} failed)", points.rows.len());
+    [("units", units.join(", ")), ("points", points)].map(|(k, v)| (k.to_owned(), v)).into()
+}
+
 fn images(page: &mut Page, folder: &Folder) {
-    for image in &folder.images {
-        page.element("section", &[("class", "picture")], |page| {
-            page.texts("h2", &[], &image.file);
-            page.element("div", &[("class", "box")], |page| {
-                page.open("img", &[("src", &image.address), ("alt", &image.file)]);
+    page.element("div", &[("class", "pictures")], |page| {
+        for image in &folder.images {
+            page.element("section", &[("class", "picture")], |page| {
+                page.texts("h2", &[], &image.file);
+                page.element("div", &[("class", "box")], |page| {
+                    page.open("img", &[("src", &image.address), ("alt", &image.file)]);
+                });
             });
-        });
-    }
+        }
+    });
 }
 
 /// The plot that the script draws.

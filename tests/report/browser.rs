@@ -1,7 +1,7 @@
 //! The page's script at work: a copy of the page with a driver behind it, in headless Chromium,
 //! which prints what has become of the document.
 
-use super::{Place, teapot, values};
+use super::{Place, many_frames, teapot, values};
 use std::fs;
 use std::process::Command;
 
@@ -118,4 +118,14 @@ fn tables_sort_as_numbers_and_filter_and_frames_are_drawn() {
     let frames = csv.lines().filter(|l| l.starts_with("hybrid,") && l.contains(",emit,vertices,"));
     assert_eq!(seen(&dom, "points"), frames.count().to_string());
     assert!(values(&dom, "<option value=\"").count() > 50);
+}
+
+#[test]
+fn many_frames_are_drawn() {
+    let place = Place::new();
+    many_frames(&place, 1);
+    let page = place.page("compared").replace("emit.n0", "emit.vertices");
+    let Some(dom) = driven(&place, &page) else { return };
+    assert_eq!(seen(&dom, "errors"), "");
+    assert_eq!((seen(&dom, "lines"), seen(&dom, "points")), ("1", "30000"));
 }

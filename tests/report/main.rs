@@ -70,6 +70,11 @@ fn assert_sound(page: &str) {
         }
     }
     assert!(!page.contains("url(") && !page.contains("@import"));
+    assert!(
+        page.contains(
+            "http-equiv=\"Content-Security-Policy\" content=\"default-src &#39;none&#39;"
+        )
+    );
     assert!(!page.contains(UNKNOWN), "{}", around(page, UNKNOWN));
     let ids: BTreeSet<_> = values(page, " id=\"").collect();
     assert_eq!(ids.len(), values(page, " id=\"").count(), "an id twice");
@@ -89,13 +94,18 @@ fn around<'a>(page: &'a str, word: &str) -> &'a str {
     &page[from..at]
 }
 
+/// What is between the marks.
+fn plain(html: &str) -> String {
+    let texts = html.split('<').map(|part| part.split_once('>').map_or("", |(_, text)| text));
+    texts.collect::<String>().trim().to_owned()
+}
+
 /// The cells of the row of a page that links to this number, without their markup.
-fn row<'a>(page: &'a str, number: &str) -> Vec<&'a str> {
+fn row(page: &str, number: &str) -> Vec<String> {
     let link = format!("<td><a href=\"#number-{number}\"");
     let at = page.find(&link).unwrap_or_else(|| panic!("no row of {number}"));
     let row = page[at..].split("</tr>").next().unwrap();
-    let inner = |cell: &'a str| cell.rsplit('>').next().unwrap();
-    row.split("</td>").map(|cell| inner(cell.trim_end_matches("</a>"))).collect()
+    row.split("</td>").map(plain).collect()
 }
 
 #[test]
@@ -125,7 +135,7 @@ fn a_comparison_has_a_row_a_number_and_defines_each() {
     let ratio =
         |of: &str| format!("{:.3}", of.parse::<f64>().unwrap() / hybrid.parse::<f64>().unwrap());
     let found = row(&page, "emit.triangles");
-    let wanted = [hybrid, triangles, d3d11, &ratio(triangles), &ratio(d3d11)];
+    let wanted = [hybrid, triangles, &ratio(triangles), d3d11, &ratio(d3d11)];
     assert_eq!(found[2..7], wanted, "{found:?}");
     for said in ["<dd>teapot</dd>", "hybrid, triangles, d3d11", "unit = &quot;hybrid&quot;"] {
         assert!(page.contains(said), "{said}");
@@ -179,6 +189,58 @@ fn long_tables_say_how_much_of_them_is_left_out() {
     assert_eq!(table.matches("<tr>").count(), 2001);
     assert!(page.contains("<h2>points.csv</h2>") && page.contains("study.toml"));
     assert!(page.contains("<dd>teapot</dd>"), "what the points were made of");
+    let header = page.split("</header>").next().unwrap();
+    // All of them, not the first that says so.
+    for fact in
+        ["<dt>units</dt>\n<dd>d3d11, hybrid</dd>", "<dt>points</dt>\n<dd>16 (0 failed)</dd>"]
+    {
+        assert!(header.contains(fact), "{fact}");
+    }
+    assert!(!header.contains("<dt>unit</dt>") && !header.contains("<dt>frames</dt>"));
+}
+
+#[test]
+fn numbers_are_in_threes_and_ratios_keep_their_digits() {
+    let place = Place::new();
+    place.compared(&teapot());
+    let mut csv = "unit,block,counter,value,measure,first,min,median,max\n".to_owned();
+    for (unit, value, part) in [("hybrid", "4000000", "2.5"), ("d3d11", "1", "12345.678")] {
+        csv +=
+            &format!("{unit},emit,triangles,{value},count,,,,\n{unit},unit,time,{part},ms,,,,\n");
+    }
+    fs::write(place.path("compared/compare.csv"), csv).unwrap();
+    let page = place.page("compared");
+    assert_eq!(row(&page, "emit.triangles")[2..5], ["4000000", "1", "0.000000250"]);
+    assert_eq!(row(&page, "unit.time")[2..5], ["2.5", "12345.7", "4938.271"]);
+    assert!(page.contains("<td class=\"number\">4<i>000</i><i>000</i></td>"));
+    assert!(page.contains("<td class=\"number\" title=\"12345.678\">12<i>345</i>.7</td>"));
+}
+
+/// Frames beyond all that is in use: `numbers` counters over 30,000 frames.
+fn many_frames(place: &Place, numbers: usize) {
+    place.compared(&teapot());
+    let mut csv = "unit,frame,block,counter,value,measure\n".to_owned();
+    for frame in 0..30_000 {
+        for number in 0..numbers {
+            csv += &format!("hybrid,{frame},emit,n{number},{},count\n", 1_000_000 + frame);
+        }
+    }
+    fs::write(place.path("compared/frames.csv"), csv).unwrap();
+}
+
+#[test]
+fn numbers_over_many_frames_have_room_for_two_mebibytes() {
+    let place = Place::new();
+    many_frames(&place, 12);
+    let page = place.page("compared");
+    // Eight bytes a frame each.
+    assert!(page.contains("<p class=\"note\">4 numbers are left out for size.</p>"));
+    let data = page.split("class=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    let kept = data["numbers"].as_array().unwrap();
+    assert_eq!(kept.len(), 8);
+    assert_eq!(kept[7]["values"][0].as_array().unwrap().len(), 30_000);
+    assert_eq!(data["frames"].as_array().unwrap().len(), 30_000);
 }
 
 #[test]

@@ -12,6 +12,7 @@ fn refused(place: &Place, folder: &str, wanted: &[&str]) {
     for word in wanted {
         assert!(said.contains(word), "{word}: {said}");
     }
+    assert!(!said.contains(" at line "), "the place twice: {said}");
     assert!(!place.path("page.html").exists());
 }
 
@@ -22,7 +23,37 @@ fn what_is_no_result_is_refused() {
     fs::write(place.path("file"), "").unwrap();
     refused(&place, "file", &["file: not a folder"]);
     fs::create_dir(place.path("empty")).unwrap();
-    refused(&place, "empty", &["empty: no result of tessim", "compare.csv", "points.csv"]);
+    refused(&place, "empty", &["empty: no result of tessim: found nothing", "points.csv"]);
+    for name in ["a", "b", "c", "d", "e", "f", "g"] {
+        fs::write(place.path(&format!("empty/{name}")), "").unwrap();
+    }
+    refused(&place, "empty", &["found a, b, c, d, e and 2 more; expected", "compare.csv"]);
+}
+
+#[test]
+fn a_page_within_its_own_folder_is_refused_and_replaces_nothing() {
+    let place = Place::new();
+    place.compared(&teapot());
+    let summary = fs::read(place.path("compared/summary.json")).unwrap();
+    let files = || fs::read_dir(place.path("compared")).unwrap().count();
+    let before = files();
+    let try_out = |at: &str, folder: &str, out: &str| {
+        let mut command = tessim();
+        command.current_dir(place.path(at)).args(["report", folder, "--out", out]);
+        let assert = command.assert().code(2);
+        let said = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+        assert!(said.contains("expected a place outside it") && said.contains(out), "{said}");
+    };
+    try_out("", "compared", "compared/summary.json");
+    try_out("", "compared/", "./compared/../compared/page.html");
+    try_out("compared", ".", "page.html");
+    try_out("compared", "../compared", "page.html");
+    assert_eq!(fs::read(place.path("compared/summary.json")).unwrap(), summary);
+    assert_eq!(files(), before);
+    // Nowhere is no place inside.
+    let mut command = tessim();
+    command.current_dir(place.path("")).args(["report", "compared", "--out", "nowhere/page.html"]);
+    command.assert().code(3);
 }
 
 #[test]
@@ -45,6 +76,15 @@ fn damaged_files_are_named_with_their_line() {
     damage("compare.csv", &bytes, &["compared/compare.csv:2:", "no UTF-8"]);
     damage("compare.csv", b"", &["compared/compare.csv:1:", "expected the names of columns"]);
     damage("compare.csv", b"unit,value\n", &["compare.csv:1:", "expected columns unit,block"]);
+    let words = format!("{header}\na,b,c,1,d,1,1,1,1\na,b,c,abc,d,1,1,1,1\n");
+    let wanted = ["compared/compare.csv:3:", "value: found \"abc\", expected a number"];
+    damage("compare.csv", words.as_bytes(), &wanted);
+    let words = format!("{header}\na,b,c,1,d,1,1,inf,1\n");
+    damage("compare.csv", words.as_bytes(), &["compare.csv:2:", "median: found \"inf\""]);
+    damage("plot.png", b"", &["compared/plot.png: byte 0:", "found 0 bytes", "a whole PNG"]);
+    damage("plot.png", b"\x89PNG\r\n\x1a\n cut", &["plot.png: byte 0:", "IEND"]);
+    damage("plot.svg", b"no picture", &["compared/plot.svg: byte 0:", "a whole SVG"]);
+    damage("plot.svg", b"<svg xmlns=\"x\"><g>", &["plot.svg: byte 0:", "</svg>"]);
     damage("frames.csv", b"unit\n", &["compared/frames.csv:1:", "found unit; expected columns"]);
     damage("summary.json", b"{\n \"tessim\": \n", &["compared/summary.json:3:", "expected JSON"]);
     damage("summary.json", b"[]", &["compared/summary.json:1:", "the version that wrote it"]);

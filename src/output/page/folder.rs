@@ -28,6 +28,9 @@ const MARKS: [(Kind, &str); 4] = [
     (Kind::Run, "counters.csv"),
 ];
 
+/// Columns with numbers in them, or nothing, in whichever file they are.
+const NUMBERS: [&str; 5] = ["value", "first", "min", "median", "max"];
+
 /// A CSV file.
 #[derive(Debug)]
 pub struct Csv {
@@ -76,11 +79,7 @@ impl Folder {
     pub fn read(path: &Path) -> Result<Self> {
         let names = names(path)?;
         let Some((kind, mark)) = MARKS.into_iter().find(|(_, mark)| names.contains(*mark)) else {
-            let marks = MARKS.map(|(_, mark)| mark).join(", ");
-            let path = path.display();
-            return Err(Error::Usage(format!(
-                "{path}: no result of tessim: expected a folder with one of {marks}"
-            )));
+            return Err(unknown(path, &names));
         };
         let with = |end: &'static str| names.iter().filter(move |name| name.ends_with(end));
         let rest = with(".csv").map(String::as_str).filter(|name| *name != mark);
@@ -125,6 +124,22 @@ impl Csv {
     }
 }
 
+/// Says what a folder holds that is no result.
+fn unknown(path: &Path, names: &BTreeSet<String>) -> Error {
+    let marks = MARKS.map(|(_, mark)| mark).join(", ");
+    let shown = 5;
+    let mut found = names.iter().take(shown).cloned().collect::<Vec<_>>().join(", ");
+    match names.len() {
+        0 => found.push_str("nothing"),
+        all if all > shown => found.push_str(&format!(" and {} more", all - shown)),
+        _ => {}
+    }
+    let path = path.display();
+    Error::Usage(format!(
+        "{path}: no result of tessim: found {found}; expected a folder with one of {marks}"
+    ))
+}
+
 /// The names of the files in the folder, in order.
 fn names(path: &Path) -> Result<BTreeSet<String>> {
     let entries = fs::read_dir(path).map_err(|error| match error.kind() {
@@ -150,10 +165,21 @@ fn table(folder: &Path, name: &str) -> Result<Csv> {
     if header.is_empty() {
         return Err(input(&path, 1, 0, "expected the names of columns".to_owned()));
     }
-    let rows = reader.records().map(|record| {
-        record.map(|r| r.iter().map(ToOwned::to_owned).collect()).map_err(|error| wrong(&error))
-    });
-    let rows = rows.collect::<Result<_>>()?;
+    let numbers: Vec<_> =
+        (0..header.len()).filter(|&at| NUMBERS.contains(&header[at].as_str())).collect();
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| wrong(&error))?;
+        for &at in &numbers {
+            let cell = &record[at];
+            if !cell.is_empty() && !cell.parse().is_ok_and(f64::is_finite) {
+                let line = record.position().map_or(1, csv::Position::line);
+                let message = format!("{}: found {cell:?}, expected a number", header[at]);
+                return Err(input(&path, line, 0, message));
+            }
+        }
+        rows.push(record.iter().map(ToOwned::to_owned).collect());
+    }
     Ok(Csv { file: name.to_owned(), path, header, rows })
 }
 
@@ -172,9 +198,32 @@ fn image(folder: &Path, name: &str) -> Result<Image> {
     use base64::prelude::{BASE64_STANDARD, Engine};
     let path = folder.join(name);
     let bytes = fs::read(&path).map_err(|error| Error::system(&path, error))?;
-    let kind = if name.ends_with(".png") { "png" } else { "svg+xml" };
+    let (kind, whole, expected) = match name.ends_with(".png") {
+        true => ("png", is_png(&bytes), "a whole PNG, from its signature to its chunk IEND"),
+        false => ("svg+xml", is_svg(&bytes), "a whole SVG, from <svg or <?xml to </svg>"),
+    };
+    if !whole {
+        let message =
+            format!("found {} bytes that are something else; expected {expected}", bytes.len());
+        return Err(Error::Input {
+            file: path.display().to_string(),
+            place: Place::Byte(0),
+            message,
+        });
+    }
     let address = format!("data:image/{kind};base64,{}", BASE64_STANDARD.encode(bytes));
     Ok(Image { file: name.to_owned(), address })
+}
+
+/// Whether a file begins and ends as a PNG does.
+fn is_png(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.ends_with(b"\0\0\0\0IEND\xae\x42\x60\x82")
+}
+
+/// Whether a file begins and ends as an SVG does.
+fn is_svg(bytes: &[u8]) -> bool {
+    let Ok(text) = str::from_utf8(bytes).map(str::trim) else { return false };
+    (text.starts_with("<svg") || text.starts_with("<?xml")) && text.ends_with("</svg>")
 }
 
 fn text(path: &Path) -> Result<String> {
@@ -194,7 +243,10 @@ fn summary(path: &Path) -> Result<Value> {
         other => other,
     })?;
     let value: Value = serde_json::from_str(&text).map_err(|error| {
-        input(path, error.line() as u64, error.column(), format!("expected JSON: {error}"))
+        // Its own words end in the place, which goes in front.
+        let said = error.to_string();
+        let reason = said.rsplit_once(" at line ").map_or(said.as_str(), |(reason, _)| reason);
+        input(path, error.line() as u64, error.column(), format!("expected JSON: {reason}"))
     })?;
     let expected = "expected an object with `tessim`, the version that wrote it";
     match value.get("tessim").is_some_and(Value::is_string) {

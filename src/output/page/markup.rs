@@ -25,7 +25,7 @@ impl Page {
         inside(self);
         write!(self.html, "</{name}>").expect("a String takes everything");
         // Between blocks a line's end means nothing; within a line it would be a space.
-        if !matches!(name, "code" | "a" | "span" | "th" | "td" | "label" | "option" | "b") {
+        if !matches!(name, "code" | "a" | "i" | "span" | "th" | "td" | "label" | "option" | "b") {
             self.html.push('\n');
         }
     }

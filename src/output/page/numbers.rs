@@ -3,6 +3,7 @@
 
 use super::folder::{Csv, Folder, Kind};
 use crate::error::{Error, Place, Result};
+use indexmap::IndexSet;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
@@ -62,8 +63,7 @@ pub(super) fn of(folder: &Folder) -> Result<Option<Numbers>> {
 fn pivot(csv: &Csv) -> Result<Numbers> {
     let [unit, block, counter, value, measure] =
         columns(csv, ["unit", "block", "counter", "value", "measure"])?;
-    let mut units: Vec<String> = Vec::new();
-    let mut blocks: Vec<String> = Vec::new();
+    let (mut units, mut blocks) = (IndexSet::new(), IndexSet::new());
     let mut places: HashMap<String, usize> = HashMap::new();
     let mut numbers: Vec<(usize, Number)> = Vec::new();
     for row in &csv.rows {
@@ -85,15 +85,12 @@ fn pivot(csv: &Csv) -> Result<Numbers> {
         number
     };
     let numbers = numbers.into_iter().map(whole).collect();
-    Ok(Numbers { units, numbers })
+    Ok(Numbers { units: units.into_iter().collect(), numbers })
 }
 
 /// Where `item` is in `list`, at whose end it is put when it is not there.
-fn place_of(list: &mut Vec<String>, item: &str) -> usize {
-    list.iter().position(|known| known == item).unwrap_or_else(|| {
-        list.push(item.to_owned());
-        list.len() - 1
-    })
+fn place_of(list: &mut IndexSet<String>, item: &str) -> usize {
+    list.get_index_of(item).unwrap_or_else(|| list.insert_full(item.to_owned()).0)
 }
 
 /// The numbers over the frames, without those that are zero throughout.
@@ -105,7 +102,7 @@ pub(super) fn frames(folder: &Folder) -> Result<Option<Frames>> {
     let Some(csv) = folder.table(file) else { return Ok(None) };
     let [unit, frame, block, counter, value] =
         columns(csv, ["unit", "frame", "block", "counter", "value"])?;
-    let (mut units, mut frames): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+    let (mut units, mut frames) = (IndexSet::new(), IndexSet::new());
     let mut places: HashMap<String, usize> = HashMap::new();
     let mut series: Vec<(String, Vec<Vec<Value>>)> = Vec::new();
     for row in &csv.rows {
@@ -134,8 +131,10 @@ pub(super) fn frames(folder: &Folder) -> Result<Option<Frames>> {
             left_out += 1;
         }
     }
+    let count = frames.len();
+    let [units, frames] = [units, frames].map(|names| names.into_iter().collect::<Value>());
     let data = json!({ "units": units, "frames": frames, "numbers": kept });
-    Ok(Some(Frames { count: frames.len(), data, left_out }))
+    Ok(Some(Frames { count, data, left_out }))
 }
 
 /// Changes the place `at` of `list`, which grows as far as that.

@@ -78,7 +78,9 @@ const draw = (data, number, box) => {
     const svg = element("svg", { viewBox: `0 0 ${width} ${height}`, role: "img" });
     svg.append(element("title", {}, number.name));
     const values = number.values.flat().filter((value) => value !== null);
-    const [least, most] = [Math.min(0, ...values), Math.max(0, ...values)];
+    // As arguments of one call, many frames would not fit on the stack.
+    const least = values.reduce((a, b) => Math.min(a, b), 0);
+    const most = values.reduce((a, b) => Math.max(a, b), 0);
     const last = Math.max(1, data.frames.length - 1);
     const x = (frame) => left + (width - left - right) * frame / last;
     const tall = height - top - bottom;

@@ -12,6 +12,9 @@ const ROWS: usize = 2000;
 /// Significant digits of what is no integer; the cell's title has them all.
 const DIGITS: usize = 6;
 
+/// Significant digits of a ratio below one; above, as many places.
+const RATIO: usize = 3;
+
 /// Every `block.counter` of the folder's tables that come onto the page, in the order in which they
 /// first come.
 pub(super) fn names(folder: &Folder) -> Vec<String> {
@@ -44,8 +47,9 @@ pub(super) fn numbers(
             page.texts(
                 "p",
                 &[("class", "note")],
-                "compare.csv, a column a unit; / is over the first unit. Empty where a unit does \
-                 not have the number. The least, median and greatest frame are in the file.",
+                "compare.csv, a column a unit, and beside it what it is over the first unit. \
+                 Empty where a unit does not have the number. The least, median and greatest \
+                 frame are in the file.",
             );
         }
         tools(page, true);
@@ -54,10 +58,13 @@ pub(super) fn numbers(
                 page.element("tr", &[], |page| {
                     head(page, "number", false, None);
                     head(page, "measure", false, meaning::of_column("*", "measure"));
-                    units.iter().for_each(|unit| head(page, unit, true, None));
-                    let title = units.first().map(|first| format!("over that of {first}"));
-                    for unit in units.iter().skip(1) {
-                        head(page, &format!("/ {unit}"), true, title.as_deref());
+                    for (at, unit) in units.iter().enumerate() {
+                        head(page, unit, true, None);
+                        if at > 0 {
+                            let first = &units[0];
+                            let title = format!("{unit} over {first}");
+                            head(page, &format!("/ {first}"), true, Some(&title));
+                        }
                     }
                 });
             });
@@ -70,9 +77,12 @@ pub(super) fn numbers(
                     page.element("tr", class, |page| {
                         page.element("td", &[], |page| link(page, &number.name, None, known));
                         page.texts("td", &[], &number.measure);
-                        number.values.iter().for_each(|value| cell(page, value, true));
-                        for value in number.values.iter().skip(1) {
-                            cell(page, &ratio(value, &number.values[0]), true);
+                        for (at, value) in number.values.iter().enumerate() {
+                            cell(page, value, true);
+                            if at > 0 {
+                                let ratio = ratio(value, &number.values[0]);
+                                page.texts("td", &[("class", "number ratio")], &ratio);
+                            }
                         }
                     });
                 }
@@ -168,11 +178,32 @@ fn head(page: &mut Page, name: &str, numeric: bool, meaning: Option<&str>) {
 
 /// A cell; what is no integer is rounded for the eye.
 fn cell(page: &mut Page, value: &str, numeric: bool) {
-    match rounded(value).filter(|_| numeric) {
-        Some(rounded) => page.texts("td", &[("class", "number"), ("title", value)], &rounded),
-        None if numeric => page.texts("td", &[("class", "number")], value),
-        None => page.texts("td", &[], value),
+    if !numeric {
+        return page.texts("td", &[], value);
     }
+    match rounded(value) {
+        Some(rounded) => page.element("td", &[("class", "number"), ("title", value)], |page| {
+            grouped(page, &rounded);
+        }),
+        None => page.element("td", &[("class", "number")], |page| grouped(page, value)),
+    }
+}
+
+/// A number, its digits before the point in threes where they are more than four: the gaps are
+/// style, so that what is copied is the number.
+fn grouped(page: &mut Page, number: &str) {
+    let whole = number.bytes().take_while(u8::is_ascii_digit).count();
+    if whole <= 4 {
+        return page.text(number);
+    }
+    let (mut at, first) = (0, (whole - 1) % 3 + 1);
+    page.text(&number[..first]);
+    at += first;
+    while at < whole {
+        page.texts("i", &[], &number[at..at + 3]);
+        at += 3;
+    }
+    page.text(&number[whole..]);
 }
 
 /// A number's name, which leads to what it means.
@@ -197,7 +228,12 @@ fn rounded(value: &str) -> Option<String> {
 /// `of` over `per`, or nothing where there is no such ratio.
 fn ratio(of: &str, per: &str) -> String {
     match (of.parse::<f64>(), per.parse::<f64>()) {
-        (Ok(of), Ok(per)) if per != 0.0 => format!("{:.3}", of / per),
+        (Ok(of), Ok(per)) if per != 0.0 => {
+            let ratio = of / per;
+            let below =
+                if ratio == 0.0 { 0.0 } else { (-1.0 - ratio.abs().log10().floor()).max(0.0) };
+            format!("{ratio:.0$}", RATIO + below as usize)
+        }
         _ => String::new(),
     }
 }
