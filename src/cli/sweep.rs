@@ -14,7 +14,8 @@ use tessim::study::sweep::{self, Event, Plan, Shard, Status, Store, Study, Work}
 /// The study names traces, presets, units, keys that are set, and a grid or a list of values.
 /// Results are kept under the hash of trace, configuration and version: a sweep that was stopped
 /// goes on when it is started again, and several processes may share a folder. When all points are
-/// settled, points.csv (a row a point) and sweep.csv (a row a point and counter) are written.
+/// settled, points.csv (a row a point), sweep.svg (plots of it) and sweep.csv (a row a point and
+/// counter) are written.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  tessim sweep traces/sweeps/buses.toml --out buses\n  \
                         tessim sweep traces/sweeps/buses.toml --out buses --status\n  \
@@ -73,7 +74,7 @@ fn told(work: &Work, status: &Status, out: &std::path::Path) -> String {
     );
     let open = status.running + status.never_run;
     let tables = match open {
-        0 => format!("{0}/points.csv\n{0}/sweep.csv\n", out.display()),
+        0 => format!("{0}/points.csv\n{0}/sweep.svg\n{0}/sweep.csv\n", out.display()),
         _ => format!("no tables yet: {open} of {} points are open\n", status.all()),
     };
     done + &status.text() + &tables

@@ -2,12 +2,19 @@
 //! Ito, which people with any kind of colour vision tell apart. Text stays text.
 
 use crate::error::{Error, Result};
+use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use std::io;
 
 /// Pixels.
 const PICTURE: (u32, u32) = (760, 540);
+
+/// Pixels of each of several charts in one picture.
+const PANEL: (u32, u32) = (520, 380);
+
+/// Names that an axis has room for.
+const TICKS: usize = 12;
 
 const COLORS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
@@ -22,6 +29,7 @@ const COLORS: [RGBColor; 8] = [
 
 /// A line.
 pub(super) struct Series {
+    /// Nothing for one more line of the series before, in its colour.
     pub(super) name: String,
     pub(super) points: Vec<(f64, f64)>,
 }
@@ -59,6 +67,8 @@ pub(super) struct Chart<'a> {
     pub(super) title: &'a str,
     pub(super) x: &'a str,
     pub(super) y: &'a str,
+    /// What x = 0, 1, 2, ... are called; empty: numbers.
+    pub(super) ticks: Vec<String>,
     /// Whether y is logarithmic.
     pub(super) log: bool,
     /// Where names stand.
@@ -74,17 +84,48 @@ pub(super) struct Chart<'a> {
 /// # Errors
 /// None that can be expected: it is drawn into memory.
 pub(super) fn svg(chart: &Chart<'_>) -> Result<String> {
+    drawn(chart.file, std::slice::from_ref(chart), 1, PICTURE)
+}
+
+/// Charts side by side as SVG, row by row.
+///
+/// # Errors
+/// None that can be expected: it is drawn into memory.
+pub(super) fn panels(file: &str, charts: &[Chart<'_>], columns: usize) -> Result<String> {
+    drawn(file, charts, columns, PANEL)
+}
+
+fn drawn(file: &str, charts: &[Chart<'_>], columns: usize, each: (u32, u32)) -> Result<String> {
     let mut text = String::new();
-    let [_, (low, high)] = chart.bounds();
-    let drawn = if chart.log {
-        draw(&mut text, chart, (low / 1.5..high * 1.5).log_scale())
-    } else {
-        let room = 0.05 * (high - low).max(1e-9);
-        let above = if matches!(chart.names, Names::Above) { 10.0 * room } else { room };
-        draw(&mut text, chart, low - room..high + above)
-    };
-    drawn.map_err(|error| Error::system(chart.file, io::Error::other(error.to_string())))?;
+    let drawn = draw_all(&mut text, charts, columns, each);
+    drawn.map_err(|error| Error::system(file, io::Error::other(error.to_string())))?;
     Ok(text)
+}
+
+fn draw_all(
+    text: &mut String,
+    charts: &[Chart<'_>],
+    columns: usize,
+    each: (u32, u32),
+) -> Result<(), Box<dyn std::error::Error>> {
+    let rows = charts.len().div_ceil(columns);
+    let size = (each.0 * columns as u32, each.1 * rows as u32);
+    let root = SVGBackend::with_string(text, size).into_drawing_area();
+    root.fill(&WHITE)?;
+    for (area, chart) in root.split_evenly((rows, columns)).iter().zip(charts) {
+        let [_, (low, high)] = chart.bounds();
+        let names_above = matches!(chart.names, Names::Above);
+        if chart.log {
+            let above = if names_above { (high / low).sqrt().max(2.0) } else { 1.5 };
+            draw(area, chart, (low / 1.5..high * above).log_scale())?;
+        } else {
+            let room = 0.05 * (high - low).max(1e-9);
+            let above = if names_above { 10.0 * room } else { room };
+            draw(area, chart, low - room..high + above)?;
+        }
+    }
+    root.present()?;
+    Ok(())
 }
 
 impl Chart<'_> {
@@ -103,18 +144,30 @@ impl Chart<'_> {
         let y = of(&mut ys.collect::<Vec<_>>().into_iter());
         [x, y].map(|(a, b)| if a < b { (a, b) } else { (a.min(1.0), b.max(2.0)) })
     }
+
+    /// What stands at an x.
+    fn tick(&self, at: f64) -> String {
+        if self.ticks.is_empty() {
+            return tick(at);
+        }
+        let whole = (at - at.round()).abs() < 1e-6 && at > -0.5;
+        let name = whole.then(|| self.ticks.get(at.round() as usize)).flatten();
+        name.cloned().unwrap_or_default()
+    }
 }
 
-fn draw<Y>(text: &mut String, chart: &Chart<'_>, up: Y) -> Result<(), Box<dyn std::error::Error>>
+fn draw<Y>(
+    area: &DrawingArea<SVGBackend<'_>, Shift>,
+    chart: &Chart<'_>,
+    up: Y,
+) -> Result<(), Box<dyn std::error::Error>>
 where
     Y: AsRangedCoord<Value = f64>,
     Y::CoordDescType: ValueFormatter<f64>,
 {
     let [(left, right), _] = chart.bounds();
     let room = 0.03 * (right - left);
-    let root = SVGBackend::with_string(text, PICTURE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let mut context = ChartBuilder::on(&root)
+    let mut context = ChartBuilder::on(area)
         .caption(chart.title, ("sans-serif", 17))
         .margin(12)
         .x_label_area_size(44)
@@ -124,18 +177,27 @@ where
         .configure_mesh()
         .x_desc(chart.x)
         .y_desc(chart.y)
-        .x_label_formatter(&|at| tick(*at))
+        .x_labels(if chart.ticks.is_empty() { TICKS } else { TICKS.min(chart.ticks.len() + 1) })
+        .x_label_formatter(&|at| chart.tick(*at))
         .y_label_formatter(&|at| tick(*at))
         .label_style(("sans-serif", 13))
         .light_line_style(WHITE)
         .bold_line_style(BLACK.mix(0.12))
         .draw()?;
-    for (series, color) in chart.series.iter().zip(COLORS.iter().cycle()) {
+    let mut colors = COLORS.iter().cycle();
+    let mut color = &BLACK;
+    for series in &chart.series {
+        if !series.name.is_empty() {
+            color = colors.next().expect("a cycle has no end");
+        }
         let shown = series.points.iter().copied().filter(|p| !chart.log || p.1 > 0.0);
         let style = color.stroke_width(2);
         let legend = move |(x, y)| PathElement::new(vec![(x, y), (x + 24, y)], style);
         let line = LineSeries::new(shown.clone(), style);
-        context.draw_series(line)?.label(series.name.as_str()).legend(legend);
+        let drawn = context.draw_series(line)?;
+        if !series.name.is_empty() {
+            drawn.label(series.name.as_str()).legend(legend);
+        }
         context.draw_series(shown.map(|at| Circle::new(at, 3, style.filled())))?;
     }
     for (name, y) in &chart.levels {
@@ -159,7 +221,6 @@ where
         .border_style(BLACK.mix(0.3))
         .label_font(("sans-serif", 13))
         .draw()?;
-    root.present()?;
     Ok(())
 }
 

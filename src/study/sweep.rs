@@ -2,12 +2,13 @@
 //!
 //! In comes a study, out come a folder with the result of every point and, when all of them are
 //! settled, two tables: a row a point, and a row a point and counter, as CSV and (with the feature
-//! `parquet`) as Parquet. A point's result is renamed
-//! into place under the hash of what it is made of, so that a sweep that was stopped at any moment
-//! goes on where it was, several machines can share one, and an equal point is computed once.
+//! `parquet`) as Parquet; and a picture of the first. A point's result is renamed into place under
+//! the hash of what it is made of, so that a sweep that was stopped at any moment goes on where it
+//! was, several machines can share one, and an equal point is computed once.
 
 #[cfg(feature = "parquet")]
 mod parquet;
+mod picture;
 mod plan;
 mod point;
 mod status;

@@ -187,6 +187,7 @@ fn long_tables_say_how_much_of_them_is_left_out() {
     let table = page.split("<h2>sweep.csv</h2>").nth(1).unwrap();
     let table = table.split("</table>").next().unwrap();
     assert_eq!(table.matches("<tr>").count(), 2001);
+    assert!(page.contains("<h2>sweep.svg</h2>"), "plots over what was changed");
     assert!(page.contains("<h2>points.csv</h2>") && page.contains("study.toml"));
     assert!(page.contains("<dd>teapot</dd>"), "what the points were made of");
     let header = page.split("</header>").next().unwrap();

@@ -19,7 +19,7 @@ const STUDY: &str = "traces = [\"fan.jsonl\", \"mesh.jsonl\"]\n\
 
 const KILLS: usize = 50;
 
-const TABLES: [&str; 3] = ["points.csv", "sweep.csv", "study.toml"];
+const TABLES: [&str; 4] = ["points.csv", "sweep.svg", "sweep.csv", "study.toml"];
 
 fn start(place: &Place, threads: u32) -> Child {
     let program = tessim().get_program().to_owned();

@@ -177,6 +177,7 @@ pub fn svg(rows: &[Row]) -> Result<String> {
         title: "Triangles a cycle at fixed levels, first frame",
         x: "segments on every edge",
         y: "triangles a cycle",
+        ticks: Vec::new(),
         log: false,
         names: Names::Above,
         series: series.collect(),

@@ -28,6 +28,7 @@ pub fn svg_of_widths(study: &Study) -> Result<String> {
         title: "Position error over bits of a position, other formats at their widest",
         x: "bits of a position",
         y: "pixels",
+        ticks: Vec::new(),
         log: true,
         names: Names::LowerLeft,
         series: vec![
@@ -77,6 +78,7 @@ pub fn svg_of_evaluators(rows: &[evaluators::Row]) -> Result<String> {
         title: "RMS error of points over bits of a position, fewest guard bits",
         x: "bits of a position",
         y: "dB of a pixel",
+        ticks: Vec::new(),
         log: false,
         names: Names::LowerLeft,
         series,

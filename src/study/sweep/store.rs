@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! study.toml            the study that the tables are of
-//! points.csv sweep.csv  the tables, there only when every point is settled
+//! points.csv sweep.csv  the tables, there only when every point is settled; with them sweep.svg
 //! points/HASH/          the result of a point, as `run` writes it, and the command that repeats it
 //! failed/HASH.txt       why a point failed
 //! work/HASH.lock        held by the process that computes the point: a lock of the system's, which
@@ -20,11 +20,19 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 /// What a sweep writes at the top of its folder; nothing else may be there.
-const NAMES: [&str; 7] =
-    ["points", "failed", "work", "study.toml", "points.csv", "sweep.csv", "sweep.parquet"];
+const NAMES: [&str; 8] = [
+    "points",
+    "failed",
+    "work",
+    "study.toml",
+    "points.csv",
+    "sweep.csv",
+    "sweep.parquet",
+    "sweep.svg",
+];
 
 /// What becomes of the tables while points are open: they are not of this study any more.
-const TABLES: [&str; 3] = ["points.csv", "sweep.csv", "sweep.parquet"];
+const TABLES: [&str; 4] = ["points.csv", "sweep.csv", "sweep.parquet", "sweep.svg"];
 
 /// Length of a hash in hexadecimal.
 pub(super) const HASH_DIGITS: usize = 32;

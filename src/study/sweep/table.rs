@@ -1,13 +1,15 @@
-//! Tables: the results of all points in, in whatever order they came to be; two of them out, in the
-//! order of the study.
+//! Tables: the results of all points in, in whatever order they came to be; two of them and a
+//! picture out, in the order of the study.
 //!
 //! Both are read back from the points' own files: a table says what is in the folder, and a sweep
 //! that was stopped and goes on writes what one that was not would have written.
 
+use super::picture;
 use super::plan::{Plan, Point};
 use super::store::{Claim, State, Store};
 use crate::error::{Error, Result};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
@@ -25,13 +27,18 @@ pub(super) const STUDY: &str = "study.toml";
 pub(super) fn publish(plan: &Plan, store: &Store) -> Result<()> {
     let claim = store.claim_tables()?;
     study(plan, &claim)?;
-    claim.draft("points.csv", |file| points(plan, store, file))?;
+    let outcomes = outcomes(plan, store)?;
+    claim.draft("points.csv", |file| points(plan, store, &outcomes, file))?;
+    let picture = picture::svg(&columns(plan), &outcomes)?;
+    claim.draft(picture::FILE, |file| {
+        file.write_all(picture.as_bytes()).map_err(|error| Error::system(picture::FILE, error))
+    })?;
     claim.draft("sweep.csv", |file| counters(plan, store, file))?;
     #[cfg(feature = "parquet")]
     claim.draft("sweep.parquet", |file| super::parquet::write(plan, store, file))?;
     let parquet: &[_] = if cfg!(feature = "parquet") { &["sweep.parquet"] } else { &[] };
     // The last says that all are there.
-    claim.publish(&[&[STUDY, "points.csv"], parquet, &["sweep.csv"]].concat())
+    claim.publish(&[&[STUDY, "points.csv", picture::FILE], parquet, &["sweep.csv"]].concat())
 }
 
 /// Writes the study as it was read.
@@ -57,43 +64,65 @@ fn cells(plan: &Plan, number: usize, point: &Point) -> Vec<String> {
     named.into_iter().chain(point.values.iter().cloned()).collect()
 }
 
-/// `points.csv`: a row a point, with its state, its hash and its rates.
-fn points(plan: &Plan, store: &Store, out: impl Write) -> Result<()> {
-    let mut names: Vec<String> = Vec::new();
-    let mut rows = Vec::with_capacity(plan.points.len());
-    for (number, point) in plan.points.iter().enumerate() {
-        let mut row = cells(plan, number, point);
+/// What has become of a point.
+pub(super) struct Outcome {
+    /// Its cells of [`columns`].
+    pub(super) cells: Vec<String>,
+    /// Why it failed, if it did.
+    reason: Option<String>,
+    hash: String,
+    /// Names and values of its rates, empty where there was nothing to divide by.
+    pub(super) rates: Vec<(String, String)>,
+}
+
+/// What has become of each point, in the study's order.
+fn outcomes(plan: &Plan, store: &Store) -> Result<Vec<Outcome>> {
+    let outcome = |(number, point): (usize, &Point)| {
+        let cells = cells(plan, number, point);
         let hash = point.hash.clone().unwrap_or_default();
         let state = match &point.hash {
             Ok(hash) => store.settled(hash)?.expect("tables are of settled points"),
             Err(reason) => State::Failed(reason.clone()),
         };
-        let mut rates = Vec::new();
-        match state {
-            State::Failed(reason) => row.extend(["failed".to_owned(), reason, hash]),
-            _ => {
-                rates = self::rates(&store.point(&hash).join("summary.json"))?;
-                row.extend(["completed".to_owned(), String::new(), hash]);
-            }
-        }
-        for (name, _) in &rates {
-            if !names.contains(name) {
-                names.push(name.clone());
-            }
-        }
-        rows.push((row, rates));
-    }
-    names.sort();
+        let (reason, rates) = match state {
+            State::Failed(reason) => (Some(reason), Vec::new()),
+            _ => (None, rates(&store.point(&hash).join("summary.json"))?),
+        };
+        Ok(Outcome { cells, reason, hash, rates })
+    };
+    plan.points.iter().enumerate().map(outcome).collect()
+}
+
+/// `points.csv`: a row a point, with its state, its hash and its rates.
+fn points(plan: &Plan, store: &Store, outcomes: &[Outcome], out: impl Write) -> Result<()> {
+    let rates = outcomes.iter().flat_map(|outcome| &outcome.rates);
+    let names: BTreeSet<_> = rates.map(|(name, _)| name.as_str()).collect();
     let failed = |error| not_written(store, "points.csv", error);
     let mut csv = csv::Writer::from_writer(out);
     let head = columns(plan).into_iter().chain(["state", "reason", "hash"]);
-    csv.write_record(head.chain(names.iter().map(String::as_str))).map_err(failed)?;
-    for (row, rates) in rows {
-        let rate = |name| rates.iter().find(|(rate, _)| rate == name);
-        let rates = names.iter().map(|name| rate(name).map_or("", |(_, value)| value.as_str()));
-        csv.write_record(row.iter().map(String::as_str).chain(rates)).map_err(failed)?;
+    csv.write_record(head.chain(names.iter().copied())).map_err(failed)?;
+    for outcome in outcomes {
+        let state = if outcome.reason.is_some() { "failed" } else { "completed" };
+        let said = [state, outcome.reason.as_deref().unwrap_or_default(), &outcome.hash];
+        let rates = names.iter().map(|name| outcome.rate(name).unwrap_or_default());
+        let cells = outcome.cells.iter().map(String::as_str).chain(said);
+        csv.write_record(cells.chain(rates)).map_err(failed)?;
     }
     csv.flush().map_err(|error| failed(error.into()))
+}
+
+impl Outcome {
+    /// A point for tests of what is made of points.
+    #[cfg(test)]
+    pub(super) fn completed(cells: Vec<String>, rates: Vec<(String, String)>) -> Self {
+        Self { cells, reason: None, hash: String::new(), rates }
+    }
+
+    /// A rate of the point, as its summary has it.
+    pub(super) fn rate(&self, name: &str) -> Option<&str> {
+        let found = self.rates.iter().find(|(rate, _)| rate == name);
+        found.map(|(_, value)| value.as_str())
+    }
 }
 
 /// A table that cannot be written.

@@ -112,6 +112,7 @@ fn draw(rows: &[Row], file: &str, title: &str, value: impl Fn(&Row) -> f64) -> R
         title,
         x: "triangles",
         y: "world units",
+        ticks: Vec::new(),
         log: true,
         names: Names::LowerLeft,
         series: series.collect(),

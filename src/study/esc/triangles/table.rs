@@ -180,6 +180,7 @@ pub fn svg(study: &Study) -> Result<String> {
         title: "Adaptive triangles in % of the uniform ones, one mu for both scenes",
         x: "teacups",
         y: "elephants",
+        ticks: Vec::new(),
         log: false,
         names: Names::UpperLeft,
         series: own.chain(sized).collect(),

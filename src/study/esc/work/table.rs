@@ -233,6 +233,7 @@ pub fn svg(rows: &[Row], options: &Options) -> Result<String> {
         title: "How many times as fast as a domain shader ESC is, at equal triangles and cores",
         x: "level L",
         y: "times",
+        ticks: Vec::new(),
         log: false,
         names: Names::Above,
         series,
