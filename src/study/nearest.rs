@@ -1,7 +1,7 @@
 //! Nearest: triangles and a point in, the point of any of the triangles that is nearest to it out.
 //!
-//! As if every triangle were looked at, up to the rounding of a distance: boxes round triangles, and
-//! round groups of them, say which need not be.
+//! As if every triangle were looked at, up to the rounding of a distance: boxes round triangles,
+//! and round groups of them, say which need not be.
 
 use glam::DVec3;
 

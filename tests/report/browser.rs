@@ -123,9 +123,9 @@ fn tables_sort_as_numbers_and_filter_and_frames_are_drawn() {
 #[test]
 fn many_frames_are_drawn() {
     let place = Place::new();
-    many_frames(&place, 1);
+    many_frames(&place, 6, 1);
     let page = place.page("compared").replace("emit.n0", "emit.vertices");
     let Some(dom) = driven(&place, &page) else { return };
     assert_eq!(seen(&dom, "errors"), "");
-    assert_eq!((seen(&dom, "lines"), seen(&dom, "points")), ("1", "30000"));
+    assert_eq!((seen(&dom, "lines"), seen(&dom, "points")), ("6", "30000"));
 }

@@ -217,13 +217,14 @@ fn numbers_are_in_threes_and_ratios_keep_their_digits() {
     assert!(page.contains("<td class=\"number\" title=\"12345.678\">12<i>345</i>.7</td>"));
 }
 
-/// Frames beyond all that is in use: `numbers` counters over 30,000 frames.
-fn many_frames(place: &Place, numbers: usize) {
+/// Frames beyond all that is in use: so many units and counters over 30,000 frames.
+fn many_frames(place: &Place, units: usize, numbers: usize) {
     place.compared(&teapot());
     let mut csv = "unit,frame,block,counter,value,measure\n".to_owned();
     for frame in 0..30_000 {
-        for number in 0..numbers {
-            csv += &format!("hybrid,{frame},emit,n{number},{},count\n", 1_000_000 + frame);
+        for at in 0..units * numbers {
+            let (unit, number) = (at % units, at / units);
+            csv += &format!("u{unit},{frame},emit,n{number},{},count\n", 1_000_000 + frame);
         }
     }
     fs::write(place.path("compared/frames.csv"), csv).unwrap();
@@ -232,7 +233,7 @@ fn many_frames(place: &Place, numbers: usize) {
 #[test]
 fn numbers_over_many_frames_have_room_for_two_mebibytes() {
     let place = Place::new();
-    many_frames(&place, 12);
+    many_frames(&place, 1, 12);
     let page = place.page("compared");
     // Eight bytes a frame each.
     assert!(page.contains("<p class=\"note\">4 numbers are left out for size.</p>"));

@@ -1,5 +1,5 @@
-//! Picture: what has become of the points in; `sweep.svg` out, a chart for each thing that was changed
-//! and each of three rates.
+//! Picture: what has become of the points in; `sweep.svg` out, a chart for each thing that was
+//! changed and each of three rates.
 
 use super::table::Outcome;
 use crate::error::Result;
@@ -50,8 +50,8 @@ pub(super) fn svg(columns: &[&str], outcomes: &[Outcome]) -> Result<String> {
     let (number, mut differ): (Vec<_>, Vec<_>) = axes
         .filter(|axis| axis.name == "point" || axis.values.len() > 1)
         .partition(|axis| axis.name == "point");
-    // Units tell lines apart. They are an axis where nothing else is; where they are alike, too, the
-    // number of the point is.
+    // Units tell lines apart. They are an axis where nothing else is; where they are alike, too,
+    // the number of the point is.
     differ.sort_by_key(|axis| axis.name != "unit");
     let changed: Vec<_> = differ.iter().filter(|axis| axis.name != "unit").take(ROWS).collect();
     let alone = || differ.first().unwrap_or(&number[0]);
