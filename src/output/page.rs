@@ -12,6 +12,7 @@ mod numbers;
 mod table;
 
 pub use folder::{Csv, Folder, Image, Kind};
+pub use meaning::CAVEATS;
 
 use crate::error::Result;
 use markup::Page;

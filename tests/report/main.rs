@@ -140,6 +140,7 @@ fn a_comparison_has_a_row_a_number_and_defines_each() {
     for said in ["<dd>teapot</dd>", "hybrid, triangles, d3d11", "unit = &quot;hybrid&quot;"] {
         assert!(page.contains(said), "{said}");
     }
+    assert!(page.contains("Textures and the frame buffer are not counted"));
     // One frame is no line.
     assert!(!page.contains("class=\"frames\""));
 }

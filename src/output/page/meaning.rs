@@ -1,6 +1,12 @@
 //! What columns mean, and numbers that are no counters: the tables of docs/{compare,precision,
 //! sweep}.md once more, for the page explains itself.
 
+/// What the numbers of a comparison are not.
+pub const CAVEATS: &str = "\
+Energy is an estimate: 45 nm prices (Horowitz, ISSCC 2014), and 5 pJ a bit over the link, assumed;
+work of the host is free. Textures and the frame buffer are not counted: their traffic is that of
+the pixels.";
+
 /// Numbers that `compare` derives; a name that ends in `*` is a beginning.
 const DERIVED: &[(&str, &str)] = &[
     ("unit.time", "elapsed cycles at clock_mhz, in ms"),

@@ -51,6 +51,7 @@ pub(super) fn numbers(
                  Empty where a unit does not have the number. The least, median and greatest \
                  frame are in the file.",
             );
+            page.texts("p", &[("class", "note")], meaning::CAVEATS);
         }
         tools(page, true);
         boxed(page, |page| {

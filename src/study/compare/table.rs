@@ -4,15 +4,12 @@ use super::Run;
 use super::column::Column;
 use super::lines::{Line, lines};
 use super::series::Value;
+use crate::output::page::CAVEATS;
 use crate::output::table::{grouped, printable};
 use std::fmt::Write;
 
-/// What the table's numbers are not.
-const NOTES: &str = "\
-Energy is an estimate: 45 nm prices (Horowitz, ISSCC 2014), and 5 pJ a bit over the link, assumed;
-work of the host is free. Textures and the frame buffer are not counted: their traffic is that of
-the pixels. docs/compare.md defines every line.
-";
+/// Where there is more.
+const MORE: &str = "docs/compare.md defines every line.";
 
 /// What a cell says.
 pub(super) enum Cell {
@@ -79,7 +76,7 @@ pub fn text(runs: &[Run], title: &str) -> String {
         line(&mut text, padded.trim_end());
     }
     line(&mut text, "");
-    text.push_str(NOTES);
+    writeln!(text, "{CAVEATS} {MORE}").expect("a String takes everything");
     text
 }
 
@@ -167,7 +164,7 @@ mod tests {
             assert!(found, "no `{line}` in {text}");
         }
         assert!(text.starts_with("pair: 2 frames; ratios are to hybrid\n\n"), "{text}");
-        assert!(text.ends_with(NOTES), "{text}");
+        assert!(text.ends_with(&format!("{CAVEATS} {MORE}\n")), "{text}");
     }
 
     #[test]
