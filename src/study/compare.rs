@@ -10,6 +10,7 @@
 //! Nothing is said of textures and of the frame buffer: their traffic is that of the pixels, which
 //! all units share.
 
+mod cell;
 mod column;
 mod csv;
 mod gauge;

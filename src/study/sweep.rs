@@ -6,11 +6,13 @@
 //! the hash of what it is made of, so that a sweep that was stopped at any moment goes on where it
 //! was, several machines can share one, and an equal point is computed once.
 
+mod outcome;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod picture;
 mod plan;
 mod point;
+mod publish;
 mod status;
 mod store;
 mod study;
@@ -44,13 +46,13 @@ pub fn run(
         // Tables of other points must not pass for those of this study.
         let claim = store.claim_tables()?;
         claim.remove_tables()?;
-        table::study(plan, &claim)?;
-        claim.publish(&[table::STUDY])?;
+        publish::study(plan, &claim)?;
+        claim.publish(&[publish::STUDY])?;
     }
     let work = work::work(plan, store, shard, threads, watch)?;
     let status = Status::of(plan, store)?;
     if all_settled(&status) {
-        table::publish(plan, store)?;
+        publish::publish(plan, store)?;
         store.tidy()?;
     }
     Ok((work, status))

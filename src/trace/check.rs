@@ -6,11 +6,11 @@
 //! which refuses each number where it stands in its line, asks the same predicates one by one.
 
 use super::command::{Command, Draw, Frame, IDENTITY, Primitive, Tessellation};
+use super::field::has_inverse;
 use super::indices::Indices;
 use super::points::PointSource;
 use super::state::{State, ids};
 use crate::attribute::{AttributeFormat, AttributeTable, COMPONENTS_MAX};
-use glam::DMat4;
 use rtl_model::level::Criterion;
 use std::ops::RangeInclusive;
 
@@ -60,13 +60,6 @@ pub(crate) fn command(command: &Command, state: &State) -> Checked {
     }
 }
 
-/// Whether a matrix has an inverse: the determinant and the inverse are those of its numbers in 64
-/// bits.
-pub(crate) fn invertible(matrix: &[f32; 16]) -> bool {
-    let wide = DMat4::from_cols_array(&matrix.map(f64::from));
-    wide.determinant() != 0.0 && wide.inverse().is_finite()
-}
-
 fn frame(frame: &Frame) -> Checked {
     let sides = 1..=VIEWPORT_MAX;
     if let Some(side) = frame.viewport.into_iter().find(|side| !sides.contains(side)) {
@@ -74,7 +67,7 @@ fn frame(frame: &Frame) -> Checked {
     }
     for (name, matrix) in [("view", &frame.view), ("projection", &frame.projection)] {
         finite(matrix).map_err(|e| format!("{name}: {e}"))?;
-        if !invertible(matrix) {
+        if !has_inverse(matrix) {
             return Err(format!("{name}: found a singular matrix, expected one with an inverse"));
         }
     }

@@ -1,8 +1,8 @@
 //! Fields: located values in, numbers, choices and matrices out, each refused in words that say
 //! what was expected.
 
-use super::check;
 use super::json::{Fault, Found, Value, snippet};
+use glam::DMat4;
 
 /// The fields of one object, all of them known and none twice.
 pub(crate) struct Object<'a> {
@@ -158,10 +158,17 @@ pub(crate) fn matrix(value: Value<'_>) -> Found<[f32; 16]> {
     Ok(matrix)
 }
 
+/// Whether a matrix has an inverse: the determinant and the inverse are those of its numbers in 64
+/// bits.
+pub(crate) fn has_inverse(matrix: &[f32; 16]) -> bool {
+    let wide = DMat4::from_cols_array(&matrix.map(f64::from));
+    wide.determinant() != 0.0 && wide.inverse().is_finite()
+}
+
 /// A matrix that has an inverse.
 pub(crate) fn invertible(value: Value<'_>) -> Found<[f32; 16]> {
     let matrix = matrix(value)?;
-    if !check::invertible(&matrix) {
+    if !has_inverse(&matrix) {
         return Err(value.expected("a matrix that has an inverse; this one is singular"));
     }
     Ok(matrix)

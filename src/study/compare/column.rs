@@ -1,8 +1,8 @@
 //! Column: what the table knows of one unit.
 
 use super::Run;
+use super::cell::Cell;
 use super::series::{self, Series};
-use super::table::Cell;
 use crate::output::summary::ratio;
 use crate::output::table::bound;
 use crate::report::Frame;

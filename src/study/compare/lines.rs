@@ -1,8 +1,8 @@
 //! The lines of the table: which numbers it shows, and under which headings.
 
+use super::cell::Cell;
 use super::column::{Column, Side, Which};
 use super::series;
-use super::table::Cell;
 use crate::study::raster::CLASSES;
 use rtl_model::counter::{Block, Counter, Counters, Declaration};
 

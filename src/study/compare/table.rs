@@ -1,53 +1,15 @@
 //! The table of a comparison.
 
 use super::Run;
+use super::cell::Cell;
 use super::column::Column;
 use super::lines::{Line, lines};
-use super::series::Value;
 use crate::output::page::CAVEATS;
-use crate::output::table::{grouped, printable};
+use crate::output::table::printable;
 use std::fmt::Write;
 
 /// Where there is more.
 const MORE: &str = "docs/compare.md defines every line.";
-
-/// What a cell says.
-pub(super) enum Cell {
-    Number(u64),
-    Rate(f64),
-    Word(String),
-}
-
-/// From here on nobody wants to read decimals.
-const MANY: f64 = 1000.0;
-
-impl From<Value> for Cell {
-    fn from(value: Value) -> Self {
-        match value {
-            Value::Count(count) => Self::Number(count),
-            Value::Real(real) => Self::Rate(real),
-        }
-    }
-}
-
-impl Cell {
-    fn number(&self) -> Option<f64> {
-        match self {
-            Self::Number(n) => Some(*n as f64),
-            Self::Rate(rate) => Some(*rate),
-            Self::Word(_) => None,
-        }
-    }
-
-    fn text(&self) -> String {
-        match self {
-            Self::Number(n) => grouped(*n),
-            Self::Rate(rate) if *rate >= MANY => grouped(rate.round() as u64),
-            Self::Rate(rate) => format!("{rate:.3}"),
-            Self::Word(word) => word.clone(),
-        }
-    }
-}
 
 /// The table for people: a column a unit, beside each but the first its ratio to the first; `-`
 /// where a unit has no such thing, or there is nothing to divide by.

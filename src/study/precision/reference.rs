@@ -67,7 +67,8 @@ impl Reference {
             })?;
         }
         for scene in &mut reference.frames {
-            scene.seams = seam::seams(&scene.patches);
+            let patches: Vec<_> = scene.patches.iter().map(|t| (&t.points, &t.state)).collect();
+            scene.seams = seam::seams(&patches);
         }
         Ok(reference)
     }

@@ -5,9 +5,9 @@
 //! are tessellated under the same state. A collapsed edge, four times the same point, has nothing
 //! to crack.
 
-use super::reference::Truth;
 use crate::golden::Real;
 use rtl_model::emit::Screen;
+use rtl_model::level::State;
 use rtl_model::patch::{EDGES, ONE, Point, Vertex};
 use std::collections::HashMap;
 
@@ -30,13 +30,14 @@ pub(super) type Strand = Vec<Station>;
 
 type Bits = [[u64; 4]; 4];
 
-/// The seams of a frame. Of more than two patches at an edge, each is compared with the first.
-pub(super) fn seams(patches: &[Truth]) -> Vec<Seam> {
+/// The seams of a frame, of its patches' control points and tessellation states. Of more than two
+/// patches at an edge, each is compared with the first.
+pub(super) fn seams(patches: &[(&[Real; 16], &State)]) -> Vec<Seam> {
     let mut firsts: HashMap<Bits, (usize, usize, bool)> = HashMap::new();
     let mut seams = Vec::new();
-    for (patch, truth) in patches.iter().enumerate() {
+    for (patch, (points, state)) in patches.iter().enumerate() {
         for (edge, line) in EDGES.iter().enumerate() {
-            let bits = line.map(|k| bits(&truth.points[k]));
+            let bits = line.map(|k| bits(&points[k]));
             let mut reversed = bits;
             reversed.reverse();
             if bits.iter().all(|point| *point == bits[0]) {
@@ -45,7 +46,7 @@ pub(super) fn seams(patches: &[Truth]) -> Vec<Seam> {
             let turned = reversed < bits;
             let key = if turned { reversed } else { bits };
             let &mut (first, other, was) = firsts.entry(key).or_insert((patch, edge, turned));
-            if (first, other) != (patch, edge) && patches[first].state == truth.state {
+            if (first, other) != (patch, edge) && patches[first].1 == *state {
                 let reversed = turned != was;
                 seams.push(Seam { patches: [first, patch], edges: [other, edge], reversed });
             }
@@ -90,32 +91,38 @@ pub(super) fn compare(a: &[Station], b: &[Station], reversed: bool) -> [u64; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rtl_model::level::{Criterion, State};
+    use rtl_model::level::Criterion;
     use rtl_model::patch::Level;
 
-    fn flat(x: f64) -> Truth {
+    type Edges = ([Real; 16], State);
+
+    fn flat(x: f64) -> Edges {
         let points = std::array::from_fn(|k| [x + (k % 4) as f64, (k / 4) as f64, 0.0, 1.0]);
         let criterion = Criterion::Fixed { level: Level::TWO };
         let state = State { criterion, min: Level::MIN, max: Level::MAX };
-        Truth { points, kept: true, lists: [None; 6], state }
+        (points, state)
+    }
+
+    fn seams(patches: &[Edges]) -> Vec<Seam> {
+        super::seams(&patches.iter().map(|(points, state)| (points, state)).collect::<Vec<_>>())
     }
 
     #[test]
     fn edges_with_the_same_points_are_seams_from_either_end() {
         let mut turned = flat(3.0);
-        turned.points.reverse(); // its u1 is where u0 was
-        let seams = seams(&[flat(0.0), turned, flat(20.0)]);
-        assert_eq!(seams, [Seam { patches: [0, 1], edges: [1, 1], reversed: true }]);
-        let seam = super::seams(&[flat(0.0), flat(3.0)]);
+        turned.0.reverse(); // its u1 is where u0 was
+        let found = seams(&[flat(0.0), turned, flat(20.0)]);
+        assert_eq!(found, [Seam { patches: [0, 1], edges: [1, 1], reversed: true }]);
+        let seam = seams(&[flat(0.0), flat(3.0)]);
         assert_eq!(seam, [Seam { patches: [0, 1], edges: [1, 3], reversed: false }]);
         let mut finer = flat(3.0);
-        finer.state.min = Level::TWO;
-        assert!(super::seams(&[flat(0.0), finer]).is_empty(), "states differ");
+        finer.1.min = Level::TWO;
+        assert!(seams(&[flat(0.0), finer]).is_empty(), "states differ");
         let mut collapsed = flat(3.0);
         for k in [0, 4, 8, 12] {
-            collapsed.points[k] = [3.0, 0.0, 0.0, 1.0];
+            collapsed.0[k] = [3.0, 0.0, 0.0, 1.0];
         }
-        assert_eq!(super::seams(&[collapsed.clone(), collapsed.clone()]).len(), 3);
+        assert_eq!(seams(&[collapsed, collapsed]).len(), 3);
     }
 
     #[test]

@@ -4,9 +4,10 @@
 //! A key's column has the narrowest type that holds its values at all points: boolean, INT64,
 //! DOUBLE, else a string. What is empty in the CSV is null.
 
+use super::outcome::columns;
 use super::plan::Plan;
 use super::store::Store;
-use super::table::{OF_A_COUNTER, columns, each_counter};
+use super::table::{OF_A_COUNTER, each_counter};
 use crate::error::{Error, Result};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};

@@ -1,7 +1,7 @@
 //! Picture: what has become of the points in; `sweep.svg` out, a chart for each thing that was
 //! changed and each of three rates.
 
-use super::table::Outcome;
+use super::outcome::Outcome;
 use crate::error::Result;
 use crate::study::plot::{self, Chart, Names, Series};
 use indexmap::IndexSet;
