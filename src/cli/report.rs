@@ -41,8 +41,9 @@ pub(crate) fn run(args: &Args, quiet: bool) -> Result<()> {
 /// writes its result there again replaces nothing but results.
 fn outside(folder: &Path, out: &Path) -> Result<()> {
     let whole = |path: &Path| path.canonicalize().map_err(|error| Error::system(path, error));
-    // Where there is no such folder, writing the page says so.
-    let Ok(place) = file::parent(out).canonicalize() else { return Ok(()) };
+    // A link leads elsewhere. Where there is no such folder, writing the page says so.
+    let place = out.canonicalize().or_else(|_| file::parent(out).canonicalize());
+    let Ok(place) = place else { return Ok(()) };
     if out != Path::new("-") && place.starts_with(whole(folder)?) {
         let (out, folder) = (out.display(), folder.display());
         return Err(Error::Usage(format!(

@@ -15,14 +15,24 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Begins the file that will be at `path`.
+    /// Begins the file that will be at `path`, or where `path` leads as a symbolic link.
     ///
     /// # Errors
-    /// [`Error::System`] when its folder does not exist or cannot be written.
+    /// [`Error::System`] when its folder does not exist or cannot be written, [`Error::Usage`] when
+    /// there is something that is no file, such as a device: to rename over it would destroy it.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self> {
-        let path = path.into();
+        let mut path = path.into();
         if path.is_dir() {
             return Err(Error::system(path, io::ErrorKind::IsADirectory.into()));
+        }
+        if path.is_symlink() {
+            path = path.canonicalize().map_err(|error| Error::system(&path, error))?;
+        }
+        if path.exists() && !path.is_file() {
+            let path = path.display();
+            return Err(Error::Usage(format!(
+                "{path}: found something that is no file, expected a file or nothing there"
+            )));
         }
         let mut builder = Builder::new();
         builder.prefix(".tessim-").permissions(usual_permissions(0o666));
@@ -133,6 +143,31 @@ mod tests {
         file.write_all(b"whole").unwrap();
         file.commit().unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"whole");
+    }
+
+    #[test]
+    fn what_is_no_file_is_not_replaced_and_links_are_followed() {
+        use std::os::unix::fs::symlink;
+        use std::os::unix::net::UnixListener;
+        let folder = tempfile::tempdir().unwrap();
+        let [socket, link, target] = ["socket", "link", "target"].map(|n| folder.path().join(n));
+        let _open = UnixListener::bind(&socket).unwrap();
+        symlink(&socket, &link).unwrap();
+        for path in [&socket, &link] {
+            let error = AtomicFile::create(path).unwrap_err();
+            assert_eq!(error.exit_code(), 2);
+            assert!(
+                error.to_string().contains("socket: found something that is no file"),
+                "{error}"
+            );
+        }
+        fs::remove_file(&link).unwrap();
+        fs::write(&target, "old").unwrap();
+        symlink(&target, &link).unwrap();
+        let mut file = AtomicFile::create(&link).unwrap();
+        file.write_all(b"new").unwrap();
+        file.commit().unwrap();
+        assert!(link.is_symlink() && fs::read(&target).unwrap() == b"new");
     }
 
     #[test]

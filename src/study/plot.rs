@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
+use std::cmp::Ordering;
 use std::io;
 
 /// Pixels.
@@ -138,11 +139,19 @@ impl Chart<'_> {
         let of = |values: &mut dyn Iterator<Item = f64>| {
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
         };
-        let x = of(&mut points.iter().map(|p| p.0));
+        let x = match self.ticks.len() {
+            0 => of(&mut points.iter().map(|p| p.0)),
+            names => (0.0, (names - 1).max(1) as f64),
+        };
         let levels = self.levels.iter().map(|level| level.1);
         let ys = points.iter().map(|p| p.1).chain(levels).filter(|y| !self.log || *y > 0.0);
         let y = of(&mut ys.collect::<Vec<_>>().into_iter());
-        [x, y].map(|(a, b)| if a < b { (a, b) } else { (a.min(1.0), b.max(2.0)) })
+        [x, y].map(|(a, b)| match a.partial_cmp(&b) {
+            Some(Ordering::Less) => (a, b),
+            // One value, in the middle of its own size; or none.
+            Some(Ordering::Equal) if a != 0.0 => (a - a.abs() / 2.0, a + a.abs() / 2.0),
+            _ => (0.0, 1.0),
+        })
     }
 
     /// What stands at an x.
@@ -226,6 +235,9 @@ where
 
 /// A number at an axis, without zeros that say nothing.
 fn tick(value: f64) -> String {
+    if (1e-12..1e-3).contains(&value.abs()) {
+        return format!("{value:.2e}");
+    }
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

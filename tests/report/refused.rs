@@ -48,6 +48,8 @@ fn a_page_within_its_own_folder_is_refused_and_replaces_nothing() {
     try_out("", "compared/", "./compared/../compared/page.html");
     try_out("compared", ".", "page.html");
     try_out("compared", "../compared", "page.html");
+    std::os::unix::fs::symlink("compared/summary.json", place.path("link.html")).unwrap();
+    try_out("", "compared", "link.html");
     assert_eq!(fs::read(place.path("compared/summary.json")).unwrap(), summary);
     assert_eq!(files(), before);
     // Nowhere is no place inside.
@@ -92,4 +94,15 @@ fn damaged_files_are_named_with_their_line() {
     place.compared(&teapot());
     fs::remove_file(place.path("compared/summary.json")).unwrap();
     refused(&place, "compared", &["compared/summary.json:1:", "not there"]);
+}
+
+#[test]
+fn a_completed_point_without_its_result_is_named() {
+    let place = Place::new();
+    fs::copy(teapot(), place.path("teapot.jsonl")).unwrap();
+    let study = "traces = [\"teapot.jsonl\"]\n[set]\nengine = \"none\"\nlevel.level = 2\n";
+    fs::write(place.path("study.toml"), study).unwrap();
+    place.run(&["sweep", "study.toml", "--out", "swept"]);
+    fs::remove_dir_all(place.path("swept/points")).unwrap();
+    refused(&place, "swept", &["swept/points/", "summary.json:1:", "not there"]);
 }

@@ -259,12 +259,12 @@ fn summary(path: &Path) -> Result<Value> {
 /// of another trace or version.
 fn of_points(folder: &Path, points: &Csv) -> Result<Vec<Value>> {
     let mut found: Vec<Value> = Vec::new();
-    let Some(hash) = points.column("hash") else { return Ok(found) };
+    let Some([state, hash]) = points.columns(["state", "hash"]) else { return Ok(found) };
     for row in &points.rows {
         // A hash, and no way out of the folder.
         let plain = !row[hash].is_empty() && row[hash].bytes().all(|b| b.is_ascii_hexdigit());
         let path: PathBuf = folder.join("points").join(&row[hash]).join("summary.json");
-        if !plain || !path.is_file() {
+        if !plain || row[state] != "completed" {
             continue;
         }
         let summary = summary(&path)?;

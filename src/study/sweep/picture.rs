@@ -26,11 +26,19 @@ const RATES: [Rate; 3] = [
 /// Things changed that a picture has room for: of more, the first.
 const ROWS: usize = 6;
 
+/// Names that a chart has room for.
+const NAMES: usize = 8;
+
+/// Characters that a title has room for.
+const TITLE: usize = 64;
+
 /// Characters that a name has room for.
 const NAME: usize = 20;
 
 /// An axis is logarithmic from this ratio of its ends on.
 const WIDE: f64 = 8.0;
+
+type Points = Vec<(f64, f64)>;
 
 /// A column of the points.
 struct Axis<'a> {
@@ -103,41 +111,55 @@ impl<'a> Axis<'a> {
 
 /// What is over what, and what else tells lines apart.
 fn title(axis: &Axis<'_>, differ: &[Axis<'_>]) -> String {
-    let others: Vec<_> =
-        differ.iter().filter(|o| o.column != axis.column).map(|o| o.name).collect();
-    match others.split_first() {
-        None => format!("over {}", axis.name),
-        Some((color, [])) => format!("over {}, a colour each {color}", axis.name),
-        Some((color, rest)) => {
-            format!("over {}, a colour each {color}, a line each {}", axis.name, rest.join(", "))
-        }
+    let (color, rest) = others(axis, differ);
+    let mut title = format!("over {}", axis.name);
+    if let Some(color) = color {
+        title += &format!(", a colour each {}", color.name);
     }
+    let rest: Vec<_> = rest.iter().map(|axis| axis.name).collect();
+    if !rest.is_empty() {
+        title += &format!(", a line each {}", rest.join(", "));
+    }
+    if title.chars().count() > TITLE {
+        title = title.chars().take(TITLE - 1).chain(['\u{2026}']).collect();
+    }
+    title
 }
 
-/// A line for the points that differ in nothing but the axis; those that are alike in the first
-/// other thing come together, under one name.
+/// The first other thing that has not too many values to be told apart by colour, and the rest.
+fn others<'d, 'a>(
+    axis: &Axis<'_>,
+    differ: &'d [Axis<'a>],
+) -> (Option<&'d Axis<'a>>, Vec<&'d Axis<'a>>) {
+    let mut others: Vec<_> = differ.iter().filter(|o| o.column != axis.column).collect();
+    let few = others.iter().position(|other| other.values.len() <= NAMES);
+    (few.map(|at| others.remove(at)), others)
+}
+
+/// A line for the points that differ in nothing but the axis; those of one colour come together,
+/// under one name, and every colour comes, so that it is the same in all charts.
 fn lines(axis: &Axis<'_>, differ: &[Axis<'_>], points: &[&Outcome], rate: &Rate) -> Vec<Series> {
-    let others: Vec<_> = differ.iter().filter(|other| other.column != axis.column).collect();
-    let mut lines: BTreeMap<Vec<usize>, Vec<(f64, f64)>> = BTreeMap::new();
+    let (color, rest) = others(axis, differ);
+    let names = color.map_or_else(|| vec![rate.axis], |color| color.values.clone());
+    // By colour, and by what else tells lines apart.
+    let mut lines: BTreeMap<(usize, Vec<usize>), Points> = BTreeMap::new();
     for point in points {
         let place = |axis: &Axis<'_>| axis.values.iter().position(|value| *value == axis.of(point));
         let place = |axis| place(axis).expect("the values are those of the points");
         let Some(value) = value(point, rate.name) else { continue };
-        let line = others.iter().map(|axis| place(axis)).collect();
+        let line = (color.map_or(0, place), rest.iter().map(|axis| place(axis)).collect());
         lines.entry(line).or_default().push((place(axis) as f64, value));
     }
-    let mut before = None;
-    let line = |(line, mut points): (Vec<usize>, Vec<(f64, f64)>)| {
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let color = line.first().copied().unwrap_or_default();
-        let name = match (others.first(), before.replace(color) == Some(color)) {
-            (_, true) => String::new(),
-            (None, false) => rate.axis.to_owned(),
-            (Some(axis), false) => short(axis.values[color]),
-        };
-        Series { name, points }
-    };
-    lines.into_iter().map(line).collect()
+    let mut series = Vec::new();
+    for (color, name) in names.into_iter().enumerate() {
+        let of_it = lines.iter().filter(|((of, _), _)| *of == color);
+        let mut of_it: Vec<_> = of_it.map(|(_, points)| points.clone()).collect();
+        of_it.iter_mut().for_each(|points| points.sort_by(|a, b| a.0.total_cmp(&b.0)));
+        let mut of_it = of_it.into_iter();
+        series.push(Series { name: short(name), points: of_it.next().unwrap_or_default() });
+        series.extend(of_it.map(|points| Series { name: String::new(), points }));
+    }
+    series
 }
 
 /// A rate of a point.
@@ -150,8 +172,11 @@ fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// The end of a long name: of a path, that is the file.
+/// The end of a long name: of a path, that is the file. A key without a value has a name as well.
 fn short(name: &str) -> String {
+    if name.is_empty() {
+        return "not set".to_owned();
+    }
     let length = name.chars().count();
     if length <= NAME {
         return name.to_owned();
@@ -242,5 +267,27 @@ mod tests {
     fn of_long_names_the_end_is_kept() {
         assert_eq!(short("../traces/models/teapot.jsonl"), "\u{2026}models/teapot.jsonl");
         assert_eq!(short("teapot.jsonl"), "teapot.jsonl");
+        assert_eq!(short(""), "not set");
+    }
+
+    #[test]
+    fn many_values_are_no_colours_and_a_colour_is_the_same_in_all_charts() {
+        let pixels: Vec<_> = (0..12).map(|n| n.to_string()).collect();
+        let cells: Vec<_> = pixels
+            .iter()
+            .flat_map(|pixels| ["agp4x", "pcie2x16"].map(|bus| ["hybrid", bus, pixels]))
+            .collect();
+        let mut points = points(&cells);
+        let drawn = svg(&COLUMNS, &points).unwrap();
+        assert!(texts(&drawn).contains(&"over link.bus, a line each level.pixels"));
+        assert!(texts(&drawn).contains(&"over level.pixels, a colour each link.bus"));
+        for point in points.iter_mut().filter(|point| point.cells[4] == "agp4x") {
+            point.rates.retain(|(name, _)| name != "time");
+        }
+        let points: Vec<_> = points.iter().collect();
+        let axes: Vec<_> = [4, 5].map(|c| Axis::new(COLUMNS[c], c, &points)).into();
+        let lines = lines(&axes[1], &axes, &points, &RATES[0]);
+        let found: Vec<_> = lines.iter().map(|l| (l.name.as_str(), l.points.len())).collect();
+        assert_eq!(found, [("agp4x", 0), ("pcie2x16", 12)]);
     }
 }
