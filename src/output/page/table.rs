@@ -197,12 +197,10 @@ fn grouped(page: &mut Page, number: &str) {
     if whole <= 4 {
         return page.text(number);
     }
-    let (mut at, first) = (0, (whole - 1) % 3 + 1);
+    let first = (whole - 1) % 3 + 1;
     page.text(&number[..first]);
-    at += first;
-    while at < whole {
+    for at in (first..whole).step_by(3) {
         page.texts("i", &[], &number[at..at + 3]);
-        at += 3;
     }
     page.text(&number[whole..]);
 }

@@ -55,43 +55,46 @@ struct Axis<'a> {
 pub(super) fn svg(columns: &[&str], outcomes: &[Outcome]) -> Result<String> {
     let points: Vec<_> = outcomes.iter().filter(|outcome| !outcome.rates.is_empty()).collect();
     let axes = columns.iter().enumerate().map(|(column, name)| Axis::new(name, column, &points));
-    let (number, mut differ): (Vec<_>, Vec<_>) = axes
+    let (numbers, mut differ): (Vec<_>, Vec<_>) = axes
         .filter(|axis| axis.name == "point" || axis.values.len() > 1)
         .partition(|axis| axis.name == "point");
     // Units tell lines apart. They are an axis where nothing else is; where they are alike, too,
     // the number of the point is.
     differ.sort_by_key(|axis| axis.name != "unit");
-    let changed: Vec<_> = differ.iter().filter(|axis| axis.name != "unit").take(ROWS).collect();
-    let alone = || differ.first().unwrap_or(&number[0]);
-    let changed = if changed.is_empty() { vec![alone()] } else { changed };
+    let mut changed: Vec<_> = differ.iter().filter(|axis| axis.name != "unit").take(ROWS).collect();
+    if changed.is_empty() {
+        changed.extend(differ.iter().chain(&numbers).next());
+    }
     let has = |rate: &&Rate| points.iter().any(|point| value(point, rate.name).is_some());
-    let rates: Vec<_> = RATES.iter().filter(has).collect();
-    let rates = if rates.is_empty() { vec![&RATES[0]] } else { rates };
-    let both = changed.iter().flat_map(|axis| rates.iter().map(move |rate| (*axis, *rate)));
+    let mut rates: Vec<_> = RATES.iter().filter(has).collect();
+    if rates.is_empty() {
+        rates.push(&RATES[0]);
+    }
     let titles: Vec<_> = changed.iter().map(|axis| title(axis, &differ)).collect();
-    let titles = titles.iter().flat_map(|title| std::iter::repeat_n(title, rates.len()));
-    let charts: Vec<_> = both
-        .zip(titles)
-        .map(|((axis, rate), title)| {
-            let series = lines(axis, &differ, &points, rate);
-            let values = || series.iter().flat_map(|line| &line.points).map(|point| point.1);
-            let [least, most] =
-                [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)];
-            Chart {
-                file: FILE,
-                title,
-                x: axis.name,
-                y: rate.axis,
-                ticks: axis.values.iter().map(|value| short(value)).collect(),
-                log: least > 0.0 && most / least >= WIDE,
-                names: Names::Above,
-                series,
-                levels: Vec::new(),
-                marks: Vec::new(),
-            }
-        })
-        .collect();
+    let mut charts = Vec::new();
+    for (axis, title) in changed.into_iter().zip(&titles) {
+        for rate in &rates {
+            charts.push(chart(axis, title, lines(axis, &differ, &points, rate), rate));
+        }
+    }
     plot::panels(FILE, &charts, rates.len())
+}
+
+fn chart<'c>(axis: &Axis<'c>, title: &'c str, series: Vec<Series>, rate: &Rate) -> Chart<'c> {
+    let values = || series.iter().flat_map(|line| &line.points).map(|point| point.1);
+    let [least, most] = [values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max)];
+    Chart {
+        file: FILE,
+        title,
+        x: axis.name,
+        y: rate.axis,
+        ticks: axis.values.iter().map(|value| short(value)).collect(),
+        log: least > 0.0 && most / least >= WIDE,
+        names: Names::Above,
+        series,
+        levels: Vec::new(),
+        marks: Vec::new(),
+    }
 }
 
 impl<'a> Axis<'a> {
@@ -141,23 +144,24 @@ fn others<'d, 'a>(
 fn lines(axis: &Axis<'_>, differ: &[Axis<'_>], points: &[&Outcome], rate: &Rate) -> Vec<Series> {
     let (color, rest) = others(axis, differ);
     let names = color.map_or_else(|| vec![rate.axis], |color| color.values.clone());
-    // By colour, and by what else tells lines apart.
-    let mut lines: BTreeMap<(usize, Vec<usize>), Points> = BTreeMap::new();
+    // For each colour, by what else tells lines apart.
+    let mut colors = vec![BTreeMap::<Vec<usize>, Points>::new(); names.len()];
     for point in points {
         let place = |axis: &Axis<'_>| axis.values.iter().position(|value| *value == axis.of(point));
         let place = |axis| place(axis).expect("the values are those of the points");
         let Some(value) = value(point, rate.name) else { continue };
-        let line = (color.map_or(0, place), rest.iter().map(|axis| place(axis)).collect());
-        lines.entry(line).or_default().push((place(axis) as f64, value));
+        let line = rest.iter().map(|axis| place(axis)).collect();
+        let at = (place(axis) as f64, value);
+        colors[color.map_or(0, place)].entry(line).or_default().push(at);
     }
     let mut series = Vec::new();
-    for (color, name) in names.into_iter().enumerate() {
-        let of_it = lines.iter().filter(|((of, _), _)| *of == color);
-        let mut of_it: Vec<_> = of_it.map(|(_, points)| points.clone()).collect();
-        of_it.iter_mut().for_each(|points| points.sort_by(|a, b| a.0.total_cmp(&b.0)));
-        let mut of_it = of_it.into_iter();
-        series.push(Series { name: short(name), points: of_it.next().unwrap_or_default() });
-        series.extend(of_it.map(|points| Series { name: String::new(), points }));
+    for (name, lines) in names.into_iter().zip(colors) {
+        let mut lines = lines.into_values().map(|mut points| {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            points
+        });
+        series.push(Series { name: short(name), points: lines.next().unwrap_or_default() });
+        series.extend(lines.map(|points| Series { name: String::new(), points }));
     }
     series
 }

@@ -24,9 +24,7 @@ pub(super) fn publish(plan: &Plan, store: &Store) -> Result<()> {
     let outcomes = outcomes(plan, store)?;
     claim.draft("points.csv", |file| table::points(plan, store, &outcomes, file))?;
     let picture = picture::svg(&columns(plan), &outcomes)?;
-    claim.draft(picture::FILE, |file| {
-        file.write_all(picture.as_bytes()).map_err(|error| Error::system(picture::FILE, error))
-    })?;
+    text(&claim, picture::FILE, &picture)?;
     claim.draft("sweep.csv", |file| table::counters(plan, store, file))?;
     #[cfg(feature = "parquet")]
     claim.draft("sweep.parquet", |file| super::parquet::write(plan, store, file))?;
@@ -40,8 +38,11 @@ pub(super) fn publish(plan: &Plan, store: &Store) -> Result<()> {
 /// # Errors
 /// A file that cannot be written.
 pub(super) fn study(plan: &Plan, claim: &Claim) -> Result<()> {
-    claim.draft(STUDY, |file| {
-        let written = file.write_all(plan.study.text.as_bytes());
-        written.map_err(|error| Error::system(STUDY, error))
+    text(claim, STUDY, &plan.study.text)
+}
+
+fn text(claim: &Claim, name: &str, text: &str) -> Result<()> {
+    claim.draft(name, |file| {
+        file.write_all(text.as_bytes()).map_err(|error| Error::system(name, error))
     })
 }
